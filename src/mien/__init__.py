@@ -1,0 +1,1 @@
+"""Faces you can play."""

@@ -1,0 +1,38 @@
+"""The types that every part of mien speaks. NumPy only."""
+
+from .cues import Cue
+from .drawing import Drawing, Path
+from .errors import LoadError, MienError, RangeError, UnknownNameError
+from .face import Face, Preset
+from .mesh import Material, Mesh, Part, Topology, build_topology
+from .parameters import Parameter, ParameterTable, Pose, both_sides, color
+from .scene import Light, Scene, fill_rows
+from .sound import Sound
+from .subdivision import subdivide
+
+__all__ = [
+    "Cue",
+    "Drawing",
+    "Face",
+    "Light",
+    "LoadError",
+    "Material",
+    "Mesh",
+    "MienError",
+    "Parameter",
+    "ParameterTable",
+    "Part",
+    "Path",
+    "Pose",
+    "Preset",
+    "RangeError",
+    "Scene",
+    "Sound",
+    "Topology",
+    "UnknownNameError",
+    "both_sides",
+    "build_topology",
+    "color",
+    "fill_rows",
+    "subdivide",
+]

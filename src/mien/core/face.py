@@ -1,0 +1,48 @@
+"""What every kind of face is: a pure function from named parameters to coloured polygons."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+from .drawing import Drawing
+from .mesh import Mesh
+from .parameters import ParameterTable, Pose
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A named set of values: an expression or a palette."""
+
+    name: str
+    kind: str
+    values: Mapping[str, float] = field(default_factory=dict)
+    doc: str = ""
+
+
+@runtime_checkable
+class Face(Protocol):
+    """A face that can be played.
+
+    Attributes:
+        name: its address, ``head`` or ``toon:gus``.
+        family: which tables of names fit it (``data/<vocabulary>.<family>.csv``).
+        parameters: its table.
+        presets: expressions and palettes by name.
+    """
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    @property
+    def family(self) -> str: ...  # noqa: D102
+    @property
+    def parameters(self) -> ParameterTable: ...  # noqa: D102
+    @property
+    def presets(self) -> Mapping[str, Preset]: ...  # noqa: D102
+    @property
+    def unsubdivided(self) -> Face:
+        """The same face with points meant for pictures without subdivision; often the face itself."""
+
+    def shape(self, pose: Pose) -> Mesh | Drawing:
+        """Polygons of a pose of this face's table."""

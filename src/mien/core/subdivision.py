@@ -1,0 +1,245 @@
+"""Catmull-Clark subdivision as one constant sparse matrix, with crease and boundary rules.
+
+Parts whose material says ``subdivide`` are refined; the points of all other parts pass through. The matrix depends
+on the topology alone, so it is made once and applied to points, colours and anything else that belongs to a vertex.
+
+Source: Catmull and Clark 1978; boundary and crease rules after Hoppe et al. 1994 and DeRose et al. 1998 (sharp
+edges: cubic B-spline curves; a vertex where one, or more than two, sharp edges end: dart, corner).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mesh import Mesh, Part, Topology
+from .sparse import SparseMatrix
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement:
+    """A finer topology and the matrix that makes its vertex values out of the coarse ones."""
+
+    topology: Topology
+    matrix: SparseMatrix
+    polygon_parent: Ints
+
+
+def subdivide(mesh: Mesh, levels: int) -> Mesh:
+    """The mesh with the parts that ask for it refined ``levels`` times; colours follow the same rules."""
+    for _ in range(levels):
+        fine = refine(mesh.topology)
+        colors = mesh.colors[fine.polygon_parent] if mesh.colored_by_polygon else fine.matrix.apply(mesh.colors)
+        normals = None if mesh.normals is None else _keep_rows(mesh.normals, fine.topology.vertex_count)
+        mesh = Mesh(fine.topology, fine.matrix.apply(mesh.points), colors, normals)
+    return mesh
+
+
+def _keep_rows(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    # Old vertices keep their numbers, and a round part is never subdivided: its normals just move along.
+    out = np.zeros((count, values.shape[1]))
+    out[: len(values)] = values
+    return out
+
+
+@lru_cache(maxsize=16)
+def refine(topology: Topology) -> Refinement:
+    """One step of refinement. New vertices follow the old ones: first one a polygon, then one an edge."""
+    chosen = np.array([part.material.subdivide for part in topology.parts], dtype=bool)[topology.part_of_polygon]
+    corner_chosen = chosen[topology.polygon_of_corner]
+    start = topology.corners[corner_chosen]
+    end = topology.corners[topology.next_corner][corner_chosen]
+    polygon = topology.polygon_of_corner[corner_chosen]
+
+    count = topology.vertex_count
+    face_number = np.full(topology.polygon_count, -1, dtype=np.int64)
+    face_number[chosen] = np.arange(int(chosen.sum()))
+    face = face_number[polygon]
+    face_size = np.diff(topology.starts)[chosen]
+    face_vertex = count + face
+    edges, edge = np.unique(np.sort(np.stack([start, end], axis=1), axis=1), axis=0, return_inverse=True)
+    edge = edge.reshape(-1)
+    face_count, edge_count = len(face_size), len(edges)
+    edge_vertex = count + face_count + edge
+
+    faces_of_edge = np.bincount(edge, minlength=edge_count)
+    listed = {(min(a, b), max(a, b)) for a, b in topology.creases.tolist()}
+    sharp = (faces_of_edge != 2) | np.array([tuple(pair) in listed for pair in edges.tolist()], dtype=bool)
+
+    entries = _Entries()
+    touched = np.zeros(count, dtype=bool)
+    touched[start] = True
+    still = np.flatnonzero(~touched)
+    entries.add(still, still, np.ones(len(still)))
+    _face_points(entries, face_vertex, start, face_size[face])
+    _edge_points(entries, count + face_count + np.arange(edge_count), edges, edge, face, face_size, start, sharp)
+    _vertex_points(entries, count, edges, sharp, start, face, face_size)
+
+    total = count + face_count + edge_count
+    matrix = SparseMatrix.from_entries(*entries.arrays(), shape=(total, count))
+    return _fine_topology(
+        topology,
+        chosen,
+        corner_chosen,
+        face_vertex,
+        edge_vertex,
+        edges,
+        sharp,
+        matrix,
+        total,
+        count + face_count,
+    )
+
+
+class _Entries:
+    """Collects (row, column, weight)."""
+
+    def __init__(self) -> None:
+        self.rows: list[Ints] = []
+        self.columns: list[Ints] = []
+        self.weights: list[NDArray[np.float64]] = []
+
+    def add(self, rows: Ints, columns: Ints, weights: NDArray[np.float64]) -> None:
+        self.rows.append(rows)
+        self.columns.append(columns)
+        self.weights.append(weights)
+
+    def arrays(self) -> tuple[Ints, Ints, NDArray[np.float64]]:
+        return np.concatenate(self.rows), np.concatenate(self.columns), np.concatenate(self.weights)
+
+
+def _face_points(entries: _Entries, vertex: Ints, start: Ints, size: Ints) -> None:
+    entries.add(vertex, start, 1.0 / size)
+
+
+def _edge_points(
+    entries: _Entries,
+    vertex: Ints,
+    edges: Ints,
+    edge: Ints,
+    face: Ints,
+    face_size: Ints,
+    start: Ints,
+    sharp: NDArray[np.bool_],
+) -> None:
+    ends = np.where(sharp, 0.5, 0.25)
+    for column in (0, 1):
+        entries.add(vertex, edges[:, column], ends)
+    smooth = ~sharp[edge]
+    sides = face[smooth]
+    rows, columns = _spread(vertex[edge[smooth]], sides, face_size, start)
+    entries.add(rows, columns, np.repeat(0.25 / face_size[sides], face_size[sides]))
+
+
+def _vertex_points(
+    entries: _Entries,
+    count: int,
+    edges: Ints,
+    sharp: NDArray[np.bool_],
+    start: Ints,
+    face: Ints,
+    face_size: Ints,
+) -> None:
+    sharp_edges = np.bincount(edges[sharp].ravel(), minlength=count)
+    valence = np.bincount(edges.ravel(), minlength=count)
+    touched = np.flatnonzero(valence)
+
+    crease = sharp_edges == 2
+    corner = sharp_edges > 2
+    smooth = (sharp_edges < 2) & (valence > 0)
+
+    corners = np.flatnonzero(corner)
+    entries.add(corners, corners, np.ones(len(corners)))
+    creases = np.flatnonzero(crease)
+    entries.add(creases, creases, np.full(len(creases), 0.75))
+    for a, b in ((0, 1), (1, 0)):
+        pairs = edges[sharp & crease[edges[:, a]]]
+        entries.add(pairs[:, a], pairs[:, b], np.full(len(pairs), 0.125))
+
+    # Smooth: Q/n + 2R/n + (n - 3)S/n with Q the mean of face points, R the mean of edge midpoints.
+    n = valence.astype(np.float64)
+    inside = touched[smooth[touched]]
+    entries.add(inside, inside, (n[inside] - 3.0) / n[inside])
+    for a, b in ((0, 1), (1, 0)):
+        pairs = edges[smooth[edges[:, a]]]
+        weight = 1.0 / (n[pairs[:, a]] ** 2)
+        entries.add(pairs[:, a], pairs[:, a], weight)
+        entries.add(pairs[:, a], pairs[:, b], weight)
+    vertices, around = start[smooth[start]], face[smooth[start]]
+    rows, columns = _spread(vertices, around, face_size, start)
+    entries.add(rows, columns, np.repeat(1.0 / (n[vertices] ** 2 * face_size[around]), face_size[around]))
+
+
+def _spread(rows: Ints, faces: Ints, face_size: Ints, start: Ints) -> tuple[Ints, Ints]:
+    """Each row paired with every corner of its face: (row, vertex) arrays."""
+    first = np.cumsum(face_size) - face_size
+    sizes = face_size[faces]
+    within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    return np.repeat(rows, sizes), start[np.repeat(first[faces], sizes) + within]
+
+
+def _fine_topology(
+    topology: Topology,
+    chosen: NDArray[np.bool_],
+    corner_chosen: NDArray[np.bool_],
+    face_vertex: Ints,
+    edge_vertex: Ints,
+    edges: Ints,
+    sharp: NDArray[np.bool_],
+    matrix: SparseMatrix,
+    total: int,
+    first_edge_vertex: int,
+) -> Refinement:
+    before = np.full(len(topology.corners), -1, dtype=np.int64)
+    before[topology.next_corner] = np.arange(len(topology.corners))
+    edge_of_corner = np.full(len(topology.corners), -1, dtype=np.int64)
+    edge_of_corner[corner_chosen] = edge_vertex
+    face_of_corner = np.full(len(topology.corners), -1, dtype=np.int64)
+    face_of_corner[corner_chosen] = face_vertex
+
+    corners: list[Ints] = []
+    sizes: list[Ints] = []
+    parents: list[Ints] = []
+    parts: list[Part] = []
+    first = 0
+    for part in topology.parts:
+        span = np.arange(topology.starts[part.first], topology.starts[part.last])
+        if part.material.subdivide:
+            quads = np.stack(
+                [
+                    topology.corners[span],
+                    edge_of_corner[span],
+                    face_of_corner[span],
+                    edge_of_corner[before[span]],
+                ],
+                axis=1,
+            )
+            corners.append(quads.reshape(-1))
+            sizes.append(np.full(len(quads), 4))
+            parents.append(topology.polygon_of_corner[span])
+        else:
+            corners.append(topology.corners[span])
+            sizes.append(np.diff(topology.starts[part.first : part.last + 1]))
+            parents.append(np.arange(part.first, part.last))
+        parts.append(Part(part.name, first, first + len(sizes[-1]), part.material))
+        first += len(sizes[-1])
+    listed = {(min(a, b), max(a, b)) for a, b in topology.creases.tolist()}
+    creases = [
+        pair
+        for number, (a, b) in enumerate(edges.tolist())
+        if (a, b) in listed
+        for pair in ((a, first_edge_vertex + number), (first_edge_vertex + number, b))
+    ]
+    fine = Topology(
+        total,
+        np.concatenate(corners),
+        np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64),
+        tuple(parts),
+        np.array(creases, dtype=np.int64).reshape(-1, 2),
+    )
+    return Refinement(fine, matrix, np.concatenate(parents))
