@@ -1,0 +1,26 @@
+"""What every file of ours says about itself: who made it, of which face, and that nobody was filmed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import version
+
+SYNTHETIC = "Synthetic: computed from a model of a face; nobody was photographed or recorded."
+
+
+@cache
+def software() -> str:
+    """Name and version."""
+    return f"mien {version('mien')}"
+
+
+def notes(face: str, text: str = "") -> Mapping[str, str]:
+    """Keywords and texts for pictures and films.
+
+    Args:
+        face: address of the face.
+        text: what it says, if anything.
+    """
+    title = {"Title": text[:200]} if text else {}
+    return {**title, "Software": software(), "Face": face, "Description": SYNTHETIC}

@@ -1,0 +1,57 @@
+"""The table of file formats: which suffix holds what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mien.core import UnknownNameError
+
+
+@dataclass(frozen=True)
+class Format:
+    """One row.
+
+    Attributes:
+        name: short name.
+        suffixes: lower case; an empty one stands for a folder.
+        holds: what a user asks for when he names such a file: picture, performance, timeline (to play), plot.
+        doc: what is in the file.
+    """
+
+    name: str
+    suffixes: tuple[str, ...]
+    holds: tuple[str, ...]
+    doc: str
+
+
+FORMATS: tuple[Format, ...] = (
+    Format("film", (".mp4",), ("performance",), "H.264 picture, AAC sound"),
+    Format("folder", ("",), ("performance",), "a folder of PNG frames and the sound"),
+    Format("png", (".png",), ("picture",), "PNG, with transparency"),
+    Format("jpeg", (".jpg", ".jpeg"), ("picture",), "JPEG, over white"),
+    Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
+    Format("wav", (".wav",), ("performance",), "the sound alone"),
+    Format("json", (".json",), ("performance", "timeline"), "everything needed to play it again, sound beside it"),
+    Format("csv", (".csv",), ("performance", "timeline"), "one row a frame, one column a parameter"),
+    Format("specification", (".spec",), ("timeline",), "Parke's specification list"),
+    Format("plot", (".png", ".svg", ".pdf"), ("plot",), "curves over time"),
+)
+
+
+def find_format(path: Path | str, holds: str) -> Format:
+    """The row for a path of which ``holds`` is wanted; the suffix decides, in either case.
+
+    Raises:
+        UnknownNameError: no row has the suffix; the text lists near ones.
+    """
+    path = Path(path)
+    rows = [row for row in FORMATS if holds in row.holds]
+    suffix = path.suffix.lower()
+    if path.is_dir() and any("" in row.suffixes for row in rows):
+        suffix = ""
+    for row in rows:
+        if suffix in row.suffixes:
+            return row
+    known = [each or "(a folder: no suffix)" for row in rows for each in row.suffixes]
+    raise UnknownNameError(f"suffix of {path.name!r} for a {holds}:", suffix, known)
