@@ -1,0 +1,113 @@
+"""A table of values as CSV, one row a frame: ``time_s`` or ``frame`` first, then a column for each parameter."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterator
+
+from mien.core import LoadError, ParameterTable, RangeError, UnknownNameError
+
+from .layers import Layer
+from .specification import FILM_FPS
+from .timeline import Timeline
+from .track import LIMIT, Track
+
+CLOCKS = ("time_s", "frame")
+"""Names that the first column may have."""
+
+
+def parse_csv(
+    text: str, source: str = "table", *, fps: float = FILM_FPS, table: ParameterTable | None = None
+) -> Timeline:
+    """The timeline of a table: one layer, ``direct``, that replaces, straight lines from row to row.
+
+    An empty cell is no key. The last row lasts as long as the one before it.
+
+    Args:
+        text: the CSV text, comma separated, with a heading.
+        source: the file's name, for messages.
+        fps: what a column ``frame`` counts in.
+        table: when given, columns and values are checked against it.
+
+    Raises:
+        LoadError: an unknown or doubled column, a cell that is no number or out of range, times that do not rise;
+            names the line.
+    """
+    reader = csv.reader(text.removeprefix("\ufeff").splitlines())
+    columns = [cell.strip() for cell in next(reader, [])]
+    _check_heading(columns, source, table)
+    clock, names = columns[0], columns[1:]
+    times: list[float] = []
+    keys: dict[str, tuple[list[float], list[float]]] = {name: ([], []) for name in names}
+    for cells in reader:
+        line = reader.line_num
+        if not any(cell.strip() for cell in cells):
+            continue
+        if len(cells) != len(columns):
+            raise LoadError(source, f"want {len(columns)} cells, got {len(cells)}", line=line)
+        time = _cell(cells[0], clock, source, line)
+        if clock == "frame":
+            time /= fps
+        if times and time <= times[-1]:
+            raise LoadError(source, f"{clock} {cells[0].strip()} does not come after the row before", line=line)
+        times.append(time)
+        for name, cell in zip(names, cells[1:], strict=True):
+            if cell.strip():
+                keys[name][0].append(time)
+                keys[name][1].append(_cell(cell, name, source, line, table))
+    if not times:
+        raise LoadError(source, "there is no row in it", hint="a heading alone moves nothing")
+    step = times[-1] - times[-2] if len(times) > 1 else 1.0 / fps
+    tracks = {name: Track.from_keys(at, values, name=name) for name, (at, values) in keys.items() if at}
+    rate = fps if clock == "frame" else None
+    return Timeline((Layer("direct", "replace", tracks),), max(times[-1] + step, 0.0), fps=rate)
+
+
+def format_csv(timeline: Timeline, table: ParameterTable, fps: float) -> Iterator[str]:
+    """Lines of the table of a timeline's values at a rate, with the rows that some track drives.
+
+    Numbers are written so that they read back as the same numbers.
+
+    Raises:
+        UnknownNameError: a track's parameter is not in the table.
+    """
+    names = timeline.driven(table)
+    columns = [table.index[name] for name in names]
+    yield ",".join(("time_s", *names))
+    for first, values, _ in timeline.chunks(table, fps):
+        for row, numbers in enumerate(values[:, columns].tolist()):
+            yield ",".join(repr(number) for number in ((first + row) / fps, *numbers))
+
+
+def _check_heading(columns: list[str], source: str, table: ParameterTable | None) -> None:
+    if not columns or columns[0] not in CLOCKS:
+        got = f"{columns[0]!r}" if columns else "nothing"
+        raise LoadError(source, f"want 'time_s' or 'frame' as the first column, got {got}", line=1)
+    for number, name in enumerate(columns):
+        if not name:
+            raise LoadError(source, f"column {number + 1} has no name", line=1)
+        if name in columns[:number]:
+            raise LoadError(source, f"column {name!r} is there twice", line=1, hint="leave one of them out")
+    if table is None:
+        return
+    for name in columns[1:]:
+        try:
+            table.resolve(name)
+        except UnknownNameError as error:
+            raise LoadError(source, str(error), line=1) from None
+
+
+def _cell(cell: str, name: str, source: str, line: int, table: ParameterTable | None = None) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        raise LoadError(source, f"{name}: {cell.strip()!r} is not a number", line=line) from None
+    if not math.isfinite(number) or abs(number) > LIMIT:
+        raise LoadError(source, f"{name}: {cell.strip()} is not a finite number within ±{LIMIT:g}", line=line)
+    if table is None:
+        return number
+    try:
+        return min(table[row].check(number) for row in table.resolve(name))
+    except RangeError as error:
+        raise LoadError(source, str(error), line=line) from None
