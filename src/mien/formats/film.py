@@ -15,13 +15,12 @@ from av.video.frame import VideoFrame
 from av.video.reformatter import ColorRange, Colorspace
 from numpy.typing import NDArray
 
-from mien.core import MienError, RangeError, Sound
+from mien.core import MienError, Sound
 
 from .atomic import writing
+from .rates import check_film, check_rate
 
 Pixels = NDArray[np.uint8]
-
-FPS_LOW, FPS_HIGH = 1.0, 240.0
 
 ENCODER_THREADS = 4
 """Fixed, because what x264 writes depends on it; on fewer cores they share."""
@@ -35,34 +34,6 @@ AUDIO_BLOCK = 1024
 
 BT709 = 1
 """The code of ITU-R BT.709 for primaries, transfer and matrix. Source: ITU-T H.273, tables 2 to 4."""
-
-
-def check_film(path: Path | str, fps: float, size_px: tuple[int, int], transparent: bool = False) -> None:
-    """Makes sure that a film can have this rate, size and background.
-
-    Raises:
-        RangeError: it cannot, and what would do.
-    """
-    exact_rate(fps)
-    width, height = size_px
-    if width % 2 or height % 2 or min(size_px) < 16:
-        near = "x".join(str(max(16, side + side % 2)) for side in size_px)
-        raise RangeError(
-            f"{path}: a film of {width}x{height} pixels — its sides must be even and at least 16: try {near}"
-        )
-    if transparent:
-        raise RangeError(f"{path}: a film has no transparency — give a background colour, or write PNG frames")
-
-
-def exact_rate(fps: float) -> Fraction:
-    """Frames a second as a fraction.
-
-    Raises:
-        RangeError: it is not in 1..240.
-    """
-    if not (math.isfinite(fps) and FPS_LOW <= fps <= FPS_HIGH):
-        raise RangeError(f"fps {fps:g} is out of range — it goes from {FPS_LOW:g} to {FPS_HIGH:g} frames a second")
-    return Fraction(fps).limit_denominator(1001)
 
 
 def write_film(
@@ -92,7 +63,7 @@ def write_film(
         MienError: there is no frame, or the place cannot be written.
     """
     check_film(path, fps, size_px)
-    rate = exact_rate(fps)
+    rate = check_rate(fps)
     tags = {key.lower(): value for key, value in (notes or {}).items()}
     options = {"movflags": "+faststart+use_metadata_tags", "fflags": "+bitexact"}
     with writing(path) as temporary, av.open(str(temporary), "w", format="mp4", options=options) as container:

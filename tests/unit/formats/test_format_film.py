@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from mien.core import MienError, RangeError, Sound
-from mien.formats.film import check_film, exact_rate, write_film
+from mien.formats.film import write_film
 from mien.formats.notes import notes
+from mien.formats.rates import check_film, check_rate
 
 SIZE = (64, 48)
 
@@ -76,12 +77,12 @@ def test_the_index_comes_first_so_that_it_plays_while_it_loads(tmp_path: Path) -
 def test_any_rate(tmp_path: Path, fps: float) -> None:
     write_film(frames(4), tmp_path / "a.mp4", fps=fps, size_px=SIZE, sound=tone(4 / fps))
     with av.open(str(tmp_path / "a.mp4")) as film:
-        assert film.streams.video[0].average_rate == exact_rate(fps)
+        assert film.streams.video[0].average_rate == check_rate(fps)
     assert lengths_s(tmp_path / "a.mp4") == pytest.approx([4 / fps, 4 / fps], abs=0.001)
 
 
 def test_a_named_broadcast_rate_is_exact() -> None:
-    assert exact_rate(29.97002997) == Fraction(30000, 1001)
+    assert check_rate(29.97002997) == Fraction(30000, 1001)
 
 
 def test_a_longer_sound_holds_the_last_picture(tmp_path: Path) -> None:
@@ -115,7 +116,7 @@ def test_the_same_film_has_the_same_bytes(tmp_path: Path) -> None:
 @pytest.mark.parametrize("fps", [0, 0.5, 241, float("nan"), float("inf"), -24])
 def test_a_rate_that_no_film_has_is_refused(fps: float) -> None:
     with pytest.raises(RangeError, match="from 1 to 240"):
-        exact_rate(fps)
+        check_rate(fps)
 
 
 def test_odd_sides_are_refused_with_a_size_that_does() -> None:
