@@ -1,1 +1,10 @@
-"""mien.render."""
+"""Pictures of faces: viewing transform, clipping, hidden surfaces, light; plain and compiled, equal to the byte.
+
+Nothing here imports Numba before the first picture is drawn.
+"""
+
+from .compiling import on_compile
+from .drawing import draw_drawing
+from .renderer import Renderer, draw, draw_mesh, warmup
+
+__all__ = ["Renderer", "draw", "draw_drawing", "draw_mesh", "on_compile", "warmup"]

@@ -1,0 +1,123 @@
+"""What can be said about lighting a topology before any point is known: where shades are needed, and what decides them.
+
+A *node* is a place that gets a shade: a vertex as one part sees it, or a whole polygon where polygons are flat.
+Vertices shared by two parts are two nodes. A two-sided part has its nodes twice, for its front and for its back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Topology
+from mien.core.sparse import SparseMatrix
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """The constant part of lighting a topology.
+
+    Attributes:
+        by_size: polygons grouped by their number of corners: ((n,) polygon numbers, (n, size) vertex numbers).
+        vertex: (N,) vertex of a node, -1 where the node is a polygon.
+        polygon: (N,) polygon of a flat node, -1 where the node is a vertex.
+        normal_sum: sums of polygon normals, one row a node.
+        round: numbers of the nodes whose normal is the mesh's own.
+        back: (M,) nodes that are lit once more from behind; their shades follow the N front ones.
+        corner_front: (C,) shade of a corner seen from the front.
+        corner_back: (C,) shade of a corner seen from behind.
+        lit: (N + M,) whether the light falls on it.
+        gloss: (N + M,) strength of its highlight.
+        powers: sharpness of highlights, with the numbers of the glossy shades that have it.
+        two_sided: (F,) whether a polygon's back is drawn.
+    """
+
+    by_size: tuple[tuple[Ints, Ints], ...]
+    vertex: Ints
+    polygon: Ints
+    normal_sum: SparseMatrix
+    round: Ints
+    back: Ints
+    corner_front: Ints
+    corner_back: Ints
+    lit: NDArray[np.bool_]
+    gloss: Floats
+    powers: tuple[tuple[int, Ints], ...]
+    two_sided: NDArray[np.bool_]
+
+
+@lru_cache(maxsize=16)
+def plan_shading(topology: Topology, flat: bool) -> Plan:
+    """The plan of a topology; ``flat`` makes every polygon flat."""
+    vertices: list[Ints] = []
+    polygons: list[Ints] = []
+    rows: list[Ints] = []
+    columns: list[Ints] = []
+    materials: list[Ints] = []
+    corner_node = np.empty(len(topology.corners), dtype=np.int64)
+    count = 0
+    for number, part in enumerate(topology.parts):
+        span = np.arange(topology.starts[part.first], topology.starts[part.last])
+        inside = np.arange(part.first, part.last)
+        owner = topology.polygon_of_corner[span]
+        if flat or part.material.flat:
+            corner_node[span] = count + owner - part.first
+            vertices.append(np.full(len(inside), -1))
+            polygons.append(inside)
+            rows.append(count + inside - part.first)
+            columns.append(inside)
+        else:
+            used, place = np.unique(topology.corners[span], return_inverse=True)
+            corner_node[span] = count + place.reshape(-1)
+            vertices.append(used)
+            polygons.append(np.full(len(used), -1))
+            rows.append(corner_node[span])
+            columns.append(owner)
+        materials.append(np.full(len(vertices[-1]), number))
+        count += len(vertices[-1])
+    row, column = _join(rows), _join(columns)
+    total = SparseMatrix.from_entries(row, column, np.ones(len(row)), (count, topology.polygon_count))
+    vertex, material = _join(vertices), _join(materials)
+    sided = np.array([part.material.two_sided for part in topology.parts], dtype=bool)
+    own = np.array([part.material.round for part in topology.parts], dtype=bool)
+    back = np.flatnonzero(sided[material])
+    back_node = np.arange(count)
+    back_node[back] = count + np.arange(len(back))
+    shade_material = np.concatenate([material, material[back]])
+    gloss = np.array([part.material.gloss for part in topology.parts])[shade_material]
+    power = np.array([part.material.gloss_power for part in topology.parts], dtype=np.int64)[shade_material]
+    lit = np.array([part.material.lit for part in topology.parts], dtype=bool)[shade_material]
+    glossy = (gloss > 0.0) & lit
+    return Plan(
+        by_size=_group_by_size(topology),
+        vertex=vertex,
+        polygon=_join(polygons),
+        normal_sum=total,
+        round=np.flatnonzero(own[material] & (vertex >= 0)),
+        back=back,
+        corner_front=corner_node,
+        corner_back=back_node[corner_node],
+        lit=lit,
+        gloss=gloss,
+        powers=tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy])),
+        two_sided=sided[topology.part_of_polygon],
+    )
+
+
+def _join(arrays: list[Ints]) -> Ints:
+    return np.concatenate(arrays).astype(np.int64) if arrays else np.zeros(0, dtype=np.int64)
+
+
+def _group_by_size(topology: Topology) -> tuple[tuple[Ints, Ints], ...]:
+    sizes = np.diff(topology.starts)
+    groups = []
+    for size in np.unique(sizes):
+        inside = np.flatnonzero(sizes == size)
+        groups.append((inside, topology.corners[topology.starts[inside][:, None] + np.arange(size)]))
+    return tuple(groups)

@@ -1,0 +1,161 @@
+"""From a face, a pose and a scene to a picture."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from types import TracebackType
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
+
+from . import reference
+from .camera import Camera
+from .compiling import Report, load_spans, on_compile, timed
+from .drawing import draw_drawing
+from .pixels import background_rows, resolve, srgb_tables, straight
+from .triangles import Triangles, make_triangles
+
+Picture = NDArray[np.uint8]
+Rasteriser = Literal["compiled", "reference"]
+
+RASTERISERS: tuple[Rasteriser, ...] = ("compiled", "reference")
+
+BAND_ROWS = 16
+"""Rows of samples in a band. Four planes of 16 x 2048 numbers, 512 KB, still fit a processor core's own cache."""
+
+
+class Renderer:
+    """Draws frame after frame of one scene and keeps its threads and buffers in between.
+
+    Attributes:
+        scene: what is drawn.
+        threads: how many share the bands out; the picture does not depend on it.
+        samples: 1, or 4 samples a pixel, averaged in linear light.
+    """
+
+    def __init__(
+        self, scene: Scene, threads: int = 1, *, samples: int = 4, rasteriser: Rasteriser = "compiled"
+    ) -> None:
+        if samples not in (1, 4):
+            raise RangeError(f"{samples} samples a pixel cannot be had — it is 1 or 4")
+        if not 1 <= threads <= 256:
+            raise RangeError(f"{threads} threads cannot be had — it is 1 to 256")
+        if rasteriser not in RASTERISERS:
+            raise UnknownNameError("rasteriser", str(rasteriser), RASTERISERS)
+        self.scene, self.threads, self.samples = scene, threads, samples
+        self._rasteriser = rasteriser
+        self._oversampling = 2 if samples == 4 else 1
+        self._camera = Camera.of(scene, self._oversampling)
+        self._behind = background_rows(scene)
+        self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
+        self._rows: list[NDArray[np.float32]] = []
+
+    def __enter__(self) -> Renderer:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let the threads go. A closed renderer draws on with one thread."""
+        if self._pool is not None:
+            self._pool.shutdown()
+        self._pool, self.threads = None, 1
+
+    def draw(self, face: Face, pose: Pose) -> Picture:
+        """(H, W, 4) sRGB picture, straight alpha, of a face in a pose; rows the pose leaves at rest take the scene."""
+        pose = fill_rows(face, pose, self.scene)
+        shape = (face if self.scene.subdivide else face.unsubdivided).shape(pose)
+        if isinstance(shape, Drawing):
+            return draw_drawing(shape, self.scene)
+        return self.draw_mesh(subdivide(shape, self.scene.subdivide))
+
+    def draw_mesh(self, mesh: Mesh) -> Picture:
+        """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is."""
+        if not (np.isfinite(mesh.points).all() and np.isfinite(mesh.colors).all()):
+            raise MienError("a mesh to be drawn has a point or a colour that is not a finite number")
+        triangles = make_triangles(mesh, self.scene, self._camera)
+        if self._rasteriser == "reference":
+            samples, covered = reference.rasterise(triangles, self._camera.width, self._camera.height)
+            return resolve(samples, covered, self._behind, self._oversampling)
+        return self._rasterise(triangles)
+
+    def _rasterise(self, triangles: Triangles) -> Picture:
+        spans = load_spans()
+        width, height = self.scene.size_px
+        raster_height, n = self._camera.height, self._oversampling
+        count = len(triangles.corners)
+        edges, planes = np.empty((count, 10), dtype=np.int64), np.empty((count, 5, 3))
+        soup = (triangles.places, triangles.inverse, triangles.corners, triangles.colors, triangles.color_of)
+        shares = [count * k // self.threads for k in range(self.threads + 1)]
+        self._share(spans.set_up, [(*soup, shares[k], shares[k + 1], edges, planes) for k in range(self.threads)])
+        counts = np.zeros(-(-raster_height // BAND_ROWS) + 1, dtype=np.int64)
+        spans.count_bands(edges, raster_height, BAND_ROWS, counts)
+        members = np.empty(int(counts[-1]), dtype=np.int64)
+        spans.sort_bands(edges, raster_height, BAND_ROWS, counts, members)
+
+        if not self._rows:
+            self._rows = [np.empty((4, BAND_ROWS, width * n), dtype=np.float32) for _ in range(self.threads)]
+        picture = np.empty((height, width, 4), dtype=np.uint8)
+        plain = straight(self._behind)
+        frame = (edges, planes, counts, members)
+        self._share(
+            spans.draw_bands,
+            [
+                (
+                    k,
+                    self.threads,
+                    BAND_ROWS,
+                    n,
+                    *frame,
+                    self._rows[k],
+                    np.empty((BAND_ROWS, 2), dtype=np.int64),
+                    self._behind,
+                    plain,
+                    *srgb_tables(),
+                    picture,
+                )
+                for k in range(self.threads)
+            ],
+        )
+        return picture
+
+    def _share(self, work: object, arguments: list[tuple[object, ...]]) -> None:
+        """Do some compiled work once for each tuple, the first here and the others on the threads."""
+        if not callable(work):
+            raise TypeError(f"{work!r} is no function")
+        others = [self._pool.submit(work, *rest) for rest in arguments[1:]] if self._pool is not None else []
+        work(*arguments[0])
+        for other in others:
+            other.result()
+
+
+def draw(face: Face, pose: Pose, scene: Scene, *, threads: int = 1, samples: int = 4) -> Picture:
+    """(H, W, 4) sRGB picture, straight alpha, of a face in a pose."""
+    with Renderer(scene, threads, samples=samples) as renderer:
+        return renderer.draw(face, pose)
+
+
+def draw_mesh(
+    mesh: Mesh, scene: Scene, *, threads: int = 1, samples: int = 4, rasteriser: Rasteriser = "compiled"
+) -> Picture:
+    """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is; the reference rasteriser is slow and equal."""
+    with Renderer(scene, threads, samples=samples, rasteriser=rasteriser) as renderer:
+        return renderer.draw_mesh(mesh)
+
+
+def warmup(report: Report | None = None) -> float:
+    """Seconds that it took to load, and if need be compile, all compiled code; ``report`` is told when it compiles."""
+    from mien.core import Material, build_topology
+
+    if report is not None:
+        on_compile(report)
+    corners = np.array([[0, 1, 2]])
+    points = np.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.0, 0.1, 0.0]])
+    mesh = Mesh(build_topology(3, [("sample", corners, Material())]), points, np.full((3, 3), 0.5))
+    return timed(lambda: draw_mesh(mesh, Scene(size_px=(32, 32))))

@@ -1,0 +1,123 @@
+"""A lit mesh as triangles on the raster: what both rasterisers, the plain and the fast one, are given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Mesh, Scene, exact
+
+from .camera import Camera
+from .clip import clip_polygons, outcodes
+from .plan import Plan, plan_shading
+from .shade import Shades, light_mesh, polygon_means
+from .wire import edge_ribbons, paper_colors
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Ints32 = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Triangles that are in the picture, in the order in which they win ties of depth.
+
+    Attributes:
+        places: (P, 2) 1/256 pixels of the raster, x right and y down.
+        inverse: (P,) 1 / depth, 1/m.
+        corners: (T, 3) numbers of places.
+        colors: (S, 3) linear RGB.
+        color_of: (T, 3) numbers of colours.
+    """
+
+    places: Ints32
+    inverse: Floats
+    corners: Ints32
+    colors: Floats
+    color_of: Ints32
+
+    def followed_by(self, other: Triangles) -> Triangles:
+        """These triangles, then others."""
+        return Triangles(
+            np.concatenate([self.places, other.places]),
+            np.concatenate([self.inverse, other.inverse]),
+            np.concatenate([self.corners, other.corners + np.int32(len(self.places))]),
+            np.concatenate([self.colors, other.colors]),
+            np.concatenate([self.color_of, other.color_of + np.int32(len(self.colors))]),
+        )
+
+
+def make_triangles(mesh: Mesh, scene: Scene, camera: Camera) -> Triangles:
+    """The mesh, lit, projected, clipped, without what turns its back."""
+    topology = mesh.topology
+    points = exact.round_points(mesh.points)
+    plan = plan_shading(topology, scene.shading != "smooth")
+    if scene.shading == "wire":
+        mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
+    shades = light_mesh(mesh, points, plan, scene)
+    view = camera.view(points)
+    codes = outcodes(camera, view)
+    places, inverse = camera.project(view)
+
+    corners = topology.triangles
+    outside = codes[corners[:, 0]] | codes[corners[:, 1]] | codes[corners[:, 2]]
+    nowhere = codes[corners[:, 0]] & codes[corners[:, 1]] & codes[corners[:, 2]]
+    two_sided = plan.two_sided[topology.polygon_of_triangle]
+    whole = np.flatnonzero((outside == 0) & _is_seen(places, corners, two_sided))
+    colors, color_of = _corner_colors(mesh, plan, shades, whole)
+    result = Triangles(places, inverse, corners[whole].astype(np.int32), colors, color_of)
+    cut = np.flatnonzero((outside != 0) & (nowhere == 0))
+    if len(cut):
+        colors, color_of = _corner_colors(mesh, plan, shades, cut)
+        corner_values = np.concatenate([view[corners[cut]], colors[color_of]], axis=2)
+        result = result.followed_by(_clipped(camera, corner_values, two_sided[cut]))
+    if scene.shading == "wire":
+        result = result.followed_by(Triangles(*edge_ribbons(topology, view, shades.faces_viewer, plan, camera)))
+    return result
+
+
+def _is_seen(places: Ints32, corners: NDArray[np.integer], two_sided: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether triangles have an area on the raster and show their front, which runs anticlockwise, or may show both."""
+    a, b, c = (places[corners[:, k]].astype(np.int64) for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+    seen: NDArray[np.bool_] = (area < 0) | ((area > 0) & two_sided)
+    return seen
+
+
+def _corner_colors(mesh: Mesh, plan: Plan, shades: Shades, triangles: Ints) -> tuple[Floats, Ints32]:
+    """A list of colours, and which of them each corner of these triangles (n,) has, (n, 3)."""
+    topology = mesh.topology
+    corners = topology.triangle_corners[triangles]
+    polygon = topology.polygon_of_triangle[triangles]
+    front = shades.faces_viewer[polygon][:, None]
+    shade_of = np.where(front, plan.corner_front[corners], plan.corner_back[corners])
+    if mesh.colored_by_polygon:
+        own = mesh.colors[polygon][:, None, :]
+        colors = own * shades.diffuse[shade_of] + shades.highlight[shade_of]
+        return colors.reshape(-1, 3), np.arange(3 * len(triangles), dtype=np.int32).reshape(-1, 3)
+    own = np.empty((len(plan.vertex), 3))
+    at_vertex = plan.vertex >= 0
+    own[at_vertex] = mesh.colors[plan.vertex[at_vertex]]
+    if not at_vertex.all():
+        own[~at_vertex] = polygon_means(mesh.colors, plan, mesh)[plan.polygon[~at_vertex]]
+    own = np.concatenate([own, own[plan.back]])
+    return own * shades.diffuse + shades.highlight, shade_of.astype(np.int32)
+
+
+def _clipped(camera: Camera, corner_values: Floats, two_sided: NDArray[np.bool_]) -> Triangles:
+    """Triangles of what is inside the pyramid; values (n, 3, 6) are places in the camera's frame, then colours."""
+    polygons, counts = clip_polygons(camera, corner_values)
+    size = polygons.shape[1]
+    flat = polygons.reshape(-1, polygons.shape[2])
+    places, inverse = camera.project(flat)
+    first = np.arange(len(polygons)) * size
+    fans = [np.zeros((0, 4), dtype=np.int64)]
+    for k in range(1, size - 1):
+        rows = np.flatnonzero(counts > k + 1)
+        fans.append(np.stack([first[rows], first[rows] + k, first[rows] + k + 1, rows], axis=1))
+    fan = np.concatenate(fans)
+    fan = fan[np.argsort(fan[:, 3], kind="stable")]
+    corners = fan[_is_seen(places, fan[:, :3], two_sided[fan[:, 3]]), :3].astype(np.int32)
+    return Triangles(places, inverse, corners, np.ascontiguousarray(flat[:, 3:]), corners)
