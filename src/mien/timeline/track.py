@@ -108,7 +108,7 @@ class Track:
         else:
             raise MienError(f"{place}: {len(times)} keys want {ways} change functions, got {len(change)}")
         if len(times) < 2:
-            return cls(times, times, numbers, numbers, codes, name)
+            return cls(times, times, numbers, numbers, np.zeros(len(times), dtype=np.uint8), name)
         return cls(times[:-1], times[1:], numbers[:-1], numbers[1:], codes, name)
 
     @classmethod
@@ -160,7 +160,7 @@ class Track:
         joined = np.array_equal(self.end_s[:-1], self.start_s[1:]) and np.array_equal(self.last[:-1], self.first[1:])
         if not joined:
             return None
-        if len(self) == 1 and self.start_s[0] == self.end_s[0] and self.first[0] == self.last[0]:
+        if len(self) == 1 and self == Track.from_keys(self.start_s, self.first):
             return self.start_s, self.first
         return np.append(self.start_s, self.end_s[-1]), np.append(self.first, self.last[-1])
 
