@@ -1,0 +1,191 @@
+"""Stretches of time over which lips are shut (p b m) or the lower lip is under the teeth (f v).
+
+A film shows a moment every 1/fps seconds: what lasts a frame's time and a little is seen in every film.
+Parke lost his f and v tucks between frames (1974, section 4.3); here none can be lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from mien.core import Cue
+
+from .mouth_table import Floats, phone_table
+
+LEAST_S = {"closure": 0.086, "tuck": 0.076}
+"""Length of the shortest hold: one frame at 12 fps is 83.3 ms. A tuck counts while it is 0.9, on its slopes too."""
+
+BEFORE_SHARE = 0.65
+"""Part of a lengthening that goes before the phone: lips are shut before a plosive is heard."""
+
+SAME_GAP_S = 0.045
+OTHER_GAP_S = 0.05
+MERGE_S = 0.03
+
+CLOSE_S = 0.07
+OPEN_S = 0.045
+"""Lips pop open and close slowly."""
+
+CLOSE_SHARE = 0.6
+LEAST_CLOSE_S = 0.036
+"""Closing takes at most a share of the sound before, so that a short one is not lost, but no less than this."""
+
+NOISY = ("sibilant", "labial")
+"""Kinds of phones whose noise needs open lips: holds beside them grow to the other side."""
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A channel is 1 from ``start_s`` to ``end_s``; it rises over ``rise_s`` before and falls over ``fall_s`` after.
+
+    ``spare_s`` is what is left of the phone after the hold, ``before_share`` the part of a lengthening that may go
+    before it.
+    """
+
+    start_s: float
+    end_s: float
+    channel: str
+    rise_s: float = CLOSE_S
+    fall_s: float = OPEN_S
+    spare_s: float = 0.0
+    before_share: float = BEFORE_SHARE
+
+    @property
+    def length_s(self) -> float:
+        """Duration of the plateau, seconds."""
+        return self.end_s - self.start_s
+
+
+def find_holds(phones: Sequence[Cue]) -> tuple[Hold, ...]:
+    """Holds of all labial phones, in order, none too short to be seen at 12 fps and none overlapping."""
+    return ease(spread_out(lengthen(merge(wish(phones)))))
+
+
+def wish(phones: Sequence[Cue]) -> list[Hold]:
+    """The part of each labial phone over which it is held."""
+    table = phone_table()
+    rows = [table[cue.symbol] for cue in phones]
+    out = []
+    for i, (cue, row) in enumerate(zip(phones, rows, strict=True)):
+        if row.hold:
+            end = cue.start_s + row.hold_to * cue.length_s
+            noise_before = i > 0 and rows[i - 1].kind in NOISY
+            noise_after = i + 1 < len(rows) and rows[i + 1].kind in NOISY
+            room = CLOSE_SHARE * phones[i - 1].length_s if i and not noise_before else CLOSE_S * (i == 0)
+            rise = min(CLOSE_S, max(LEAST_CLOSE_S, room))
+            out.append(
+                Hold(
+                    start_s=cue.start_s + row.hold_from * cue.length_s,
+                    end_s=end,
+                    channel=row.hold,
+                    rise_s=rise,
+                    spare_s=cue.end_s - end,
+                    before_share=BEFORE_SHARE if noise_before == noise_after else float(noise_after),
+                )
+            )
+    return out
+
+
+def merge(holds: Sequence[Hold]) -> list[Hold]:
+    """Neighbours of one kind with no time for a sound between them (``stop, me``) made one."""
+    out: list[Hold] = []
+    for hold in holds:
+        if out and out[-1].channel == hold.channel and hold.start_s - out[-1].end_s < MERGE_S:
+            out[-1] = replace(out[-1], end_s=max(out[-1].end_s, hold.end_s), spare_s=hold.spare_s)
+        else:
+            out.append(hold)
+    return out
+
+
+def lengthen(holds: Sequence[Hold]) -> list[Hold]:
+    """The holds with short ones made long enough: first into the rest of their own phone, then to both sides."""
+    out = []
+    for hold in holds:
+        missing = max(0.0, LEAST_S[hold.channel] - hold.length_s)
+        own = min(missing, hold.spare_s)
+        start = max(0.0, hold.start_s - hold.before_share * (missing - own))
+        out.append(replace(hold, start_s=start, end_s=start + LEAST_S[hold.channel]) if missing else hold)
+    return out
+
+
+def spread_out(holds: Sequence[Hold]) -> list[Hold]:
+    """The holds moved apart where they overlap: long ones give way first, then all move as little as they can.
+
+    The moves are the least-squares ones (isotonic regression by pooling neighbours).
+    """
+    if not holds:
+        return []
+    trimmed = list(holds)
+    for i in range(len(trimmed) - 1):
+        first, second = trimmed[i], trimmed[i + 1]
+        lack = first.end_s + _gap(first, second) - second.start_s
+        if lack > 0.0:
+            spare = (
+                max(0.0, first.length_s - LEAST_S[first.channel]),
+                max(0.0, second.length_s - LEAST_S[second.channel]),
+            )
+            total = spare[0] + spare[1]
+            share = min(1.0, lack / total) if total > 0.0 else 0.0
+            trimmed[i] = replace(first, end_s=first.end_s - share * spare[0])
+            trimmed[i + 1] = replace(second, start_s=second.start_s + share * spare[1])
+    offsets = [0.0]
+    for first, second in pairwise(trimmed):
+        offsets.append(offsets[-1] + first.length_s + _gap(first, second))
+    fitted = _pool([hold.start_s - offset for hold, offset in zip(trimmed, offsets, strict=True)])
+    starts = [max(0.0, place) + offset for place, offset in zip(fitted, offsets, strict=True)]
+    return [
+        hold if abs(start - hold.start_s) < 1e-9 else replace(hold, start_s=start, end_s=start + hold.length_s)
+        for hold, start in zip(trimmed, starts, strict=True)
+    ]
+
+
+def ease(holds: Sequence[Hold]) -> tuple[Hold, ...]:
+    """The holds with slopes short enough that the lips part between two of them."""
+    out = list(holds)
+    for i, hold in enumerate(out):
+        before = hold.start_s - out[i - 1].end_s if i else np.inf
+        after = out[i + 1].start_s - hold.end_s if i + 1 < len(out) else np.inf
+        out[i] = replace(hold, rise_s=min(hold.rise_s, 0.55 * before), fall_s=min(hold.fall_s, 0.4 * after))
+    return tuple(out)
+
+
+def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
+    """(N,) value of a held channel at sorted times: exactly 1 on every plateau, smooth slopes."""
+    value = np.zeros(len(times_s))
+    for hold in holds:
+        if hold.channel == channel:
+            low, high = np.searchsorted(times_s, [hold.start_s - hold.rise_s, hold.end_s + hold.fall_s])
+            t = times_s[low : high + 1]
+            rise = _smooth((t - (hold.start_s - hold.rise_s)) / hold.rise_s)
+            fall = _smooth(((hold.end_s + hold.fall_s) - t) / hold.fall_s)
+            shape = np.where(t < hold.start_s, rise, np.where(t > hold.end_s, fall, 1.0))
+            value[low : high + 1] = np.maximum(value[low : high + 1], shape)
+    return value
+
+
+def _gap(first: Hold, second: Hold) -> float:
+    return SAME_GAP_S if first.channel == second.channel else OTHER_GAP_S
+
+
+def _smooth(x: Floats) -> Floats:
+    x = np.clip(x, 0.0, 1.0)
+    return x * x * (3.0 - 2.0 * x)
+
+
+def _pool(places: Sequence[float]) -> list[float]:
+    """The nearest never-falling numbers, by least squares; numbers in order stay what they are."""
+    blocks: list[tuple[float, int]] = []
+    for place in places:
+        total, count = place, 1
+        while blocks and blocks[-1][0] / blocks[-1][1] > total / count:
+            earlier, more = blocks.pop()
+            total, count = earlier + total, more + count
+        blocks.append((total, count))
+    out: list[float] = []
+    for total, count in blocks:
+        out += [total / count] * count
+    return out
