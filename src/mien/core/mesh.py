@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -163,7 +165,7 @@ class Mesh:
 
 
 def build_topology(
-    vertex_count: int, parts: list[tuple[str, NDArray[np.integer], Material]], creases: Ints | None = None
+    vertex_count: int, parts: Sequence[tuple[str, NDArray[Any], Material]], creases: Ints | None = None
 ) -> Topology:
     """A topology from parts given as (F, n) vertex arrays; a row may repeat its last vertex to pad."""
     corners: list[Ints] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -65,14 +65,10 @@ class Parameter:
         return f"it goes from {self.low:g} to {self.high:g}" + (f" {self.unit}" if self.unit else "")
 
 
-def both_sides(
-    name: str, low: float, high: float, default: float = 0.0, **more: str | bool
-) -> tuple[Parameter, Parameter]:
-    """The rows ``name.left`` and ``name.right``; ``{side}`` in the doc becomes the side."""
-    doc = str(more.pop("doc", ""))
+def both_sides(row: Parameter) -> tuple[Parameter, Parameter]:
+    """The rows ``name.left`` and ``name.right`` of a row; ``{side}`` in its doc becomes the side."""
     left, right = (
-        Parameter(name + side, low, high, default, doc=doc.replace("{side}", side[1:]), **more)  # type: ignore[arg-type]
-        for side in SIDES
+        replace(row, name=row.name + side, doc=row.doc.replace("{side}", side.removeprefix("."))) for side in SIDES
     )
     return left, right
 

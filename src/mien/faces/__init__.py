@@ -1,1 +1,5 @@
-"""mien.faces."""
+"""Kinds of face, strangers to one another; the registry names them."""
+
+from .registry import face_names, load_face
+
+__all__ = ["face_names", "load_face"]

@@ -1,0 +1,1 @@
+"""Measured geometry (from ICT-FaceKit Light, MIT; notice beside it) and tables of the head."""

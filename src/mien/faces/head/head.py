@@ -1,0 +1,264 @@
+"""The parametric head: a pose goes in, coloured polygons come out.
+
+The order in which the parameters act: measured expressions, mouth, brows; the jaw; contact of the lips; the lids,
+which ride on what lies beneath; eyes, brows, lashes, teeth and tongue; then the whole head on its neck.
+
+Source: Parke 1974, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from mien.core import Mesh, ParameterTable, Pose, Preset, Topology
+from mien.core.mesh import Points
+from mien.core.sparse import SparseMatrix
+
+from . import brows, eyes, shades
+from .jaw import open_jaw, parke_shares, rotate_jaw
+from .lashes import Lashes, caruncle, lash_points, lashes
+from .lids import closing, move_lids
+from .measured import Archive, Floats, Kind, Measured, archive
+from .mouth import MouthRegions, close_lips, mouth_regions, move_mouth, tuck_lip
+from .muscles import add_sideways, contract_muscles
+from .neck import head_angles, neck_share, turn_back, turn_direction, turn_head
+from .parts import Layout, lay_out
+from .presets import head_presets
+from .table import head_table
+from .tongue import move_tongue
+from .units import DEG
+
+SURFACE_BROW_LIFT_M = 0.001
+
+
+@dataclass(frozen=True, eq=False)
+class Head:
+    """A human head.
+
+    Attributes:
+        name: its address.
+        hair: one of the styles that ship.
+        values: what this person has instead of the table's defaults (colours mostly).
+        kind: cage for subdivided pictures, surface for classic ones.
+        parke_jaw: Parke's shares of the jaw's angle instead of the fitted ones with their residual.
+        doc: who it is, in a line.
+    """
+
+    name: str = "head"
+    hair: str = "side_part"
+    values: Mapping[str, float] = field(default_factory=dict)
+    kind: Kind = "cage"
+    parke_jaw: bool = False
+    doc: str = ""
+    family: str = field(default="head", init=False)
+    _colors: OrderedDict[bytes, Floats] = field(default_factory=OrderedDict, init=False, repr=False)
+
+    @cached_property
+    def parameters(self) -> ParameterTable:
+        """The table, with this person's own defaults."""
+        return head_table(tuple(sorted(self.values.items())))
+
+    @cached_property
+    def presets(self) -> Mapping[str, Preset]:
+        """Expressions and palettes by name."""
+        return head_presets()
+
+    @cached_property
+    def unsubdivided(self) -> Head:
+        """The same head with points on the measured surface, for pictures without subdivision."""
+        if self.kind == "surface":
+            return self
+        return Head(self.name, self.hair, self.values, "surface", self.parke_jaw, self.doc)
+
+    @property
+    def topology(self) -> Topology:
+        """What is connected with what."""
+        return self._layout.topology
+
+    @property
+    def mirror_vertices(self) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+        """(V,) vertex that each vertex becomes in the mirror, -1 for hair, which need not be symmetric."""
+        return self._layout.mirror
+
+    def shape(self, pose: Pose) -> Mesh:
+        """The head in a pose of its table: (V, 3) m and a colour a vertex."""
+        angles = head_angles(pose)
+        balls = self._eyes(pose, angles)
+        skin = self._skin(pose, balls)
+        inside = self._inside(pose)
+        normals = self._normals(skin)
+        parts: dict[str, Points] = {"skin": turn_head(skin, angles, self._neck_share)}
+        rounded: dict[str, Points] = {}
+        light, viewer = self._room(pose, ("light", "viewer"), angles)
+        for side, ball in balls.items():
+            points, directions = eyes.eye_points(ball, pose, self._sides)
+            parts[f"eye.{side}"] = turn_head(points, angles)
+            rounded[f"eye.{side}"] = turn_direction(directions, angles)
+            parts[f"spot.{side}"] = turn_head(eyes.spot_points(ball, pose, light, viewer), angles)
+            parts[f"caruncle.{side}"] = turn_head(caruncle(skin, ball, side, self._archive), angles)
+            parts[f"lash.{side}"] = turn_head(lash_points(self._lashes, skin, ball, side), angles)
+        left, right = np.split(brows.place_brows(self._strips, skin, normals), 2)
+        parts["brow.left"], parts["brow.right"] = turn_head(left, angles), turn_head(right, angles)
+        for name, points in inside.items():
+            parts[name] = turn_head(points, angles)
+        parts["collar"] = self._collar
+        parts["hair"] = turn_head(self._hair, angles)
+        layout = self._layout
+        return Mesh(layout.topology, layout.join(parts), self._color(pose, parts, balls), layout.join(rounded))
+
+    # ---------------------------------------------------------------- steps
+
+    def _skin(self, pose: Pose, balls: Mapping[str, eyes.Eye]) -> Points:
+        measured = self._measured
+        morphs = measured.morphs
+        points = contract_muscles(measured.points, pose, morphs)
+        points = add_sideways(points, pose["jaw.side"], morphs["jawLeft"], morphs["jawRight"])
+        points = add_sideways(points, pose["mouth.side"], morphs["mouthLeft"], morphs["mouthRight"])
+        points = brows.move_brows(points, pose, self._brow_regions, measured)
+        points = move_mouth(points, pose, self._mouth, measured)
+        angle = pose["jaw.rotation"]
+        if self.parke_jaw:
+            opened = rotate_jaw(points, angle, self._jaw_axis, self._parke_share)
+        else:
+            opened = open_jaw(points, angle, self._jaw_axis, self._jaw_open_deg, measured)
+        opened = tuck_lip(opened, points, pose, self._mouth)
+        opened = close_lips(opened, pose, angle / self._jaw_open_deg, self._mouth, measured)
+        shut = [closing(pose[f"eyelid.opening.{side}"]) for side in balls]
+        # Degrees of elevation from its sine: the arcsine's series is exact enough for lids.
+        up = [ball.forward[1] * (1.0 + ball.forward[1] * ball.forward[1] / 6.0) / DEG for ball in balls.values()]
+        return move_lids(opened, measured.lids, (shut[0], shut[1]), (float(up[0]), float(up[1])))
+
+    def _inside(self, pose: Pose) -> dict[str, Points]:
+        angle, axis, layout = pose["jaw.rotation"], self._jaw_axis, self._layout
+        side = self._measured.morphs["jawLeft"][self._chin] * pose["jaw.side"]
+        shift = side + self._measured.morphs["jawForward"][self._chin] * pose["jaw.forward"]
+        out = {}
+        for name in ("teeth", "gums"):
+            points = layout.rest[name]
+            lower = layout.lower[name]
+            out[name] = np.where(lower[:, None], rotate_jaw(points, angle, axis) + shift, points)
+        out["tongue"] = rotate_jaw(move_tongue(layout.rest["tongue"], pose), 0.82 * angle, axis) + 0.7 * shift
+        return out
+
+    def _eyes(self, pose: Pose, angles: tuple[float, float, float]) -> dict[str, eyes.Eye]:
+        (target,) = self._room(pose, ("target",), angles)
+        out = {}
+        for number, side in enumerate(("left", "right")):
+            centre = self._eye_centre[number]
+            forward = eyes.look_at(centre, target, pose[f"eye.turn.{side}"], pose[f"eye.nod.{side}"])
+            out[side] = eyes.Eye(centre, self._eye_radius, forward)
+        return out
+
+    @staticmethod
+    def _room(pose: Pose, groups: tuple[str, ...], angles: tuple[float, float, float]) -> Points:
+        """Places in the room as the turned head has them before it turns."""
+        places = np.array([[pose[f"{group}.{axis}"] for axis in "xyz"] for group in groups])
+        return turn_back(places, angles)
+
+    def _normals(self, points: Points) -> Points:
+        quads = self._archive.quads
+        a, b = points[quads[:, 2]] - points[quads[:, 0]], points[quads[:, 3]] - points[quads[:, 1]]
+        cross = np.stack(
+            [
+                a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+                a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+                a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+            ],
+            axis=1,
+        )
+        return self._normal_matrix.apply(cross)
+
+    def _color(self, pose: Pose, parts: Mapping[str, Points], balls: Mapping[str, eyes.Eye]) -> Floats:
+        key = shades.palette_key(pose)
+        if key not in self._colors:
+            self._colors[key] = self._layout.join(self._layout.colors(pose))
+            while len(self._colors) > 8:
+                self._colors.popitem(last=False)
+        colors = self._colors[key].copy()
+        angles = head_angles(pose)
+        for side, ball in balls.items():
+            points = turn_back(parts[f"eye.{side}"], angles)
+            colors[self._layout.span[f"eye.{side}"]] *= shades.lid_shadow(points, ball.centre)
+        return colors
+
+    # ---------------------------------------------------------------- constants
+
+    @cached_property
+    def _archive(self) -> Archive:
+        return archive()
+
+    @cached_property
+    def _measured(self) -> Measured:
+        return self._archive.measured(self.kind)
+
+    @cached_property
+    def _layout(self) -> Layout:
+        return lay_out(self._archive, self.hair, self._sides)
+
+    @property
+    def _sides(self) -> int:
+        return eyes.CLASSIC if self.kind == "surface" else eyes.SMOOTH
+
+    @cached_property
+    def _mouth(self) -> MouthRegions:
+        return mouth_regions(self._archive, self._measured)
+
+    @cached_property
+    def _brow_regions(self) -> brows.BrowRegions:
+        return brows.brow_regions(self._measured)
+
+    @cached_property
+    def _strips(self) -> brows.BrowStrips:
+        return brows.brow_strips(self._archive, SURFACE_BROW_LIFT_M if self.kind == "surface" else 0.0)
+
+    @cached_property
+    def _lashes(self) -> Lashes:
+        return lashes(self._archive)
+
+    @cached_property
+    def _neck_share(self) -> Floats:
+        return neck_share(self._measured.points)
+
+    @cached_property
+    def _jaw_axis(self) -> Floats:
+        return self._archive.floats("jaw_axis")
+
+    @cached_property
+    def _jaw_open_deg(self) -> float:
+        return float(self._archive.floats("jaw_open_angle")) / DEG
+
+    @cached_property
+    def _parke_share(self) -> Floats:
+        return parke_shares(self._measured.jaw_share)
+
+    @cached_property
+    def _chin(self) -> int:
+        return self._archive.vertex["k11_2"]
+
+    @cached_property
+    def _eye_centre(self) -> Points:
+        return self._archive.floats("eye_centre")
+
+    @cached_property
+    def _eye_radius(self) -> float:
+        return float(self._archive.floats("eye_radius"))
+
+    @cached_property
+    def _collar(self) -> Points:
+        return self._archive.floats("collar_points")
+
+    @cached_property
+    def _hair(self) -> Points:
+        return self._layout.rest["hair"]
+
+    @cached_property
+    def _normal_matrix(self) -> SparseMatrix:
+        quads = self._archive.quads
+        rows = quads.ravel()
+        columns = np.repeat(np.arange(len(quads)), 4)
+        return SparseMatrix.from_entries(rows, columns, np.ones(len(rows)), (len(self._measured.points), len(quads)))

@@ -1,0 +1,150 @@
+"""The measured head: cage and surface points, shares, lids, parts; loaded once, read-only.
+
+Two position sets belong to one topology: ``cage`` is fitted so that its subdivision meets the reference (0.24 mm
+RMS after one step), ``surface`` lies on the reference itself and is for pictures without subdivision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from importlib.resources import files
+from typing import Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import MienError, UnknownNameError
+from mien.core.mesh import Ints, Points
+
+Floats = NDArray[np.float64]
+Scalar = TypeVar("Scalar", bound=np.generic)
+Kind = Literal["cage", "surface"]
+
+LID_RINGS = ("hidden", "inner", "margin", "lip", "crease", "fold")
+
+
+@dataclass(frozen=True, eq=False)
+class Lids:
+    """Polar coordinates of the lid vertices about their eye: what is interpolated between open and shut.
+
+    Attributes:
+        index: (L,) vertex numbers.
+        side: (L,) 1 left, -1 right.
+        upper: (L,) 1 upper lid, -1 lower lid, 0 corners.
+        ring: (L,) number into ``LID_RINGS``.
+        azimuth: (L,) rad, outwards positive.
+        elevation, elevation_shut: (L,) rad.
+        radius, radius_shut: (L,) m.
+    """
+
+    index: Ints
+    side: Floats
+    upper: Ints
+    ring: Ints
+    azimuth: Floats
+    elevation: Floats
+    elevation_shut: Floats
+    radius: Floats
+    radius_shut: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Arrays of one position set.
+
+    Attributes:
+        kind: cage or surface.
+        points: (V, 3) m.
+        jaw_share: (V,) share of the jaw's angle.
+        jaw_residual: (V, 3) m, what the rotation misses of the reference's open jaw, at ``jaw_open_angle``.
+        morphs: expression name -> (V, 3) m.
+        lids: the eyelids.
+    """
+
+    kind: Kind
+    points: Points
+    jaw_share: Floats
+    jaw_residual: Points
+    morphs: Mapping[str, Points]
+    lids: Lids
+
+
+@dataclass(frozen=True, eq=False)
+class Archive:
+    """``data/head.npz``, its arrays converted when first asked for."""
+
+    arrays: Mapping[str, NDArray[np.generic]]
+
+    def floats(self, name: str) -> Floats:
+        """An array as float64."""
+        return _locked(self.arrays[name].astype(np.float64))
+
+    def ints(self, name: str) -> Ints:
+        """An array as int64."""
+        return _locked(self.arrays[name].astype(np.int64))
+
+    @cached_property
+    def quads(self) -> Ints:
+        """(F, 4) skin, ears, lips, lid rims, nostrils, inside of the mouth."""
+        return self.ints("quads")
+
+    @cached_property
+    def mirror(self) -> Ints:
+        """(V,) vertex that each vertex becomes in the mirror."""
+        return self.ints("mirror")
+
+    @cached_property
+    def vertex(self) -> Mapping[str, int]:
+        """Vertex number of each name of the left half, such as ``m0_5`` (ring m0, station 5: the mouth corner)."""
+        return {str(name): number for number, name in enumerate(self.arrays["half_names"])}
+
+    def ring(self, prefix: str, count: int) -> Ints:
+        """(count,) left-half vertices ``prefix_0`` ...; raises UnknownNameError for a ring that is not there."""
+        names = [f"{prefix}_{station}" for station in range(count)]
+        for name in names:
+            if name not in self.vertex:
+                raise UnknownNameError("vertex", name, self.vertex)
+        return np.array([self.vertex[name] for name in names], dtype=np.int64)
+
+    @cached_property
+    def hair_styles(self) -> tuple[str, ...]:
+        """Names of the hair styles that ship, bald first."""
+        return ("bald", *(n[5:-7] for n in self.arrays if n.startswith("hair_") and n.endswith("_points")))
+
+    @cache  # noqa: B019 - one archive lives as long as the process
+    def measured(self, kind: Kind) -> Measured:
+        """One of the two position sets."""
+        names = [str(name) for name in self.arrays["morph_names"]]
+        morphs = self.floats(f"morph_{kind}")
+        lids = Lids(
+            self.ints("lid_index"),
+            self.floats("lid_side"),
+            self.ints("lid_upper"),
+            self.ints("lid_ring"),
+            *(self.floats(f"lid_{kind}_{key}") for key in ("az", "el", "el_closed", "r", "r_closed")),
+        )
+        return Measured(
+            kind,
+            self.floats(kind),
+            self.floats(f"jaw_share_{kind}"),
+            self.floats(f"jaw_residual_{kind}"),
+            dict(zip(names, morphs, strict=True)),
+            lids,
+        )
+
+
+@cache
+def archive() -> Archive:
+    """The data file that ships."""
+    place = files(__package__).joinpath("data/head.npz")
+    if not place.is_file():
+        raise MienError(f"{place}: the head's data is missing — was mien installed completely?")
+    with place.open("rb") as stream, np.load(stream) as loaded:
+        return Archive({name: loaded[name] for name in loaded.files})
+
+
+def _locked(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    array.flags.writeable = False
+    return array

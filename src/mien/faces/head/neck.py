@@ -1,0 +1,64 @@
+"""The head pivots on the neck: a rotation whose angle fades from the skull to the collar."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mien.core import Pose, exact
+from mien.core.mesh import Points
+
+from .falloff import smoothstep
+from .measured import Floats
+from .units import DEG
+
+PIVOT = np.array([0.0, -0.085, -0.022])
+BASE_Y_M, BASE_SLOPE = -0.163, -0.19
+"""The neck ends on the plane y = -0.163 - 0.19 z, where the collar sits."""
+
+RIGID_ABOVE_M = 0.055
+
+
+def neck_share(points: Points) -> Floats:
+    """(V,) share of the head's rotation: 0 at the collar, 1 from the chin up."""
+    height = points[:, 1] - (BASE_Y_M + BASE_SLOPE * points[:, 2])
+    return smoothstep(height / RIGID_ABOVE_M)
+
+
+def head_angles(pose: Pose) -> tuple[float, float, float]:
+    """Turn to the own left, nod upwards, tilt to the own left; radians."""
+    return pose["head.turn"] * DEG, pose["head.nod"] * DEG, pose["head.tilt"] * DEG
+
+
+def turn_head(points: Points, angles: tuple[float, float, float], share: Floats | float = 1.0) -> Points:
+    """Points (V, 3) m tilted, nodded, then turned about the neck's pivot, each by its share of the angles."""
+    if not any(angles):
+        return points
+    turn, nod, tilt = (angle * np.asarray(share, dtype=np.float64) for angle in angles)
+    x, y, z = (points - PIVOT).T
+    x, y = _rotate(x, y, -tilt)
+    y, z = _rotate(y, z, -nod)
+    z, x = _rotate(z, x, turn)
+    return np.stack([x, y, z], axis=1) + PIVOT
+
+
+def turn_back(point: Points, angles: tuple[float, float, float]) -> Points:
+    """(N, 3) m, points of the room as the turned head sees them: the inverse of ``turn_head``."""
+    if not any(angles):
+        return point
+    turn, nod, tilt = (np.asarray(angle) for angle in angles)
+    x, y, z = (point - PIVOT).T
+    z, x = _rotate(z, x, -turn)
+    y, z = _rotate(y, z, nod)
+    x, y = _rotate(x, y, tilt)
+    return np.stack([x, y, z], axis=1) + PIVOT
+
+
+def turn_direction(directions: Points, angles: tuple[float, float, float]) -> Points:
+    """(N, 3) directions turned with the head."""
+    return turn_head(directions + PIVOT, angles) - PIVOT
+
+
+def _rotate(a: Floats, b: Floats, angle: Floats) -> tuple[Floats, Floats]:
+    """Coordinates turned from axis a towards axis b."""
+    cosine, sine = exact.cos(angle), exact.sin(angle)
+    return a * cosine - b * sine, a * sine + b * cosine

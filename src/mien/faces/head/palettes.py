@@ -1,0 +1,45 @@
+"""Palettes: sRGB hex for people, linear light inside."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+
+from mien.core import Preset
+
+Rgb = tuple[float, float, float]
+
+DEFAULT = "beige"
+
+
+def linear(hex_color: str) -> Rgb:
+    """Linear RGB of ``#rrggbb``, rounded so that no C library's power function decides a bit."""
+    red, green, blue = (int(hex_color[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
+    return (_linear(red), _linear(green), _linear(blue))
+
+
+def _linear(value: float) -> float:
+    return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 5)
+
+
+@cache
+def palettes() -> Mapping[str, Mapping[str, Rgb]]:
+    """Palette name -> color name (``skin`` ...) -> linear RGB."""
+    text = files(__package__).joinpath("data/palettes.csv").read_text(encoding="utf-8")
+    rows = csv.DictReader(text.splitlines())
+    return {row.pop("palette"): {name: linear(value) for name, value in row.items()} for row in rows}
+
+
+def palette_presets() -> dict[str, Preset]:
+    """Each palette as a preset of the colour rows."""
+    out = {}
+    for name, colors in palettes().items():
+        values = {
+            f"{part}.color.{channel}": value
+            for part, rgb in colors.items()
+            for channel, value in zip(("red", "green", "blue"), rgb, strict=True)
+        }
+        out[name] = Preset(name, "palette", values, f"Skin, lips, brows, hair, eyes and garment in {name}.")
+    return out

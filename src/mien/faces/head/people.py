@@ -1,0 +1,115 @@
+"""Heads by name, and heads from files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+from mien.core import LoadError, MienError, UnknownNameError
+
+from .head import Head
+from .measured import archive
+from .palettes import palette_presets
+
+FORMAT, VERSION = "mien-face", 1
+KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc"}
+JAWS = ("fitted", "parke")
+
+
+@cache
+def people() -> Mapping[str, Mapping[str, str]]:
+    """Rows of ``data/people.json``: name -> hair, palette, jaw, doc."""
+    text = files(__package__).joinpath("data/people.json").read_text(encoding="utf-8")
+    rows: dict[str, dict[str, str]] = json.loads(text)
+    return rows
+
+
+def address(name: str) -> str:
+    """How a shipped person is called for: ``head``, ``head:ada``."""
+    return name if name == "head" else f"head:{name}"
+
+
+@cache
+def shipped_head(name: str) -> Head:
+    """A person who ships with mien.
+
+    Raises:
+        UnknownNameError: there is nobody of that name.
+    """
+    if name not in people():
+        raise UnknownNameError("head", name, people())
+    row = people()[name]
+    return make_head(address(name), row["hair"], row["palette"], {}, row.get("jaw", "fitted"), row["doc"])
+
+
+def make_head(name: str, hair: str, palette: str, values: Mapping[str, float], jaw: str, doc: str) -> Head:
+    """A head from choices by name; ``values`` win over the palette.
+
+    Raises:
+        UnknownNameError, RangeError: a choice or value is not there or does not fit.
+    """
+    if hair not in archive().hair_styles:
+        raise UnknownNameError("hair style", hair, archive().hair_styles)
+    palettes = palette_presets()
+    if palette not in palettes:
+        raise UnknownNameError("palette", palette, palettes)
+    if jaw not in JAWS:
+        raise UnknownNameError("jaw", jaw, JAWS)
+    head = Head(name, hair, {**palettes[palette].values, **values}, parke_jaw=jaw == "parke", doc=doc)
+    _ = head.parameters
+    return head
+
+
+def read_head(path: Path) -> Head:
+    """The head that a ``*.face.json`` describes: hair, palette, jaw and values of its own.
+
+    Raises:
+        LoadError: the file is not such a file, with the key that is wrong.
+    """
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        raise LoadError(path, f"not JSON: {error.msg}", line=error.lineno) from None
+    except UnicodeDecodeError:
+        raise LoadError(path, "not a text file in UTF-8") from None
+    except OSError as error:
+        raise LoadError(path, f"cannot be read: {error.strerror}") from None
+    if not isinstance(record, dict) or record.get("format") != FORMAT:
+        raise LoadError(path, f'want {{"format": "{FORMAT}", "version": {VERSION}, …}}', hint="is this a face file?")
+    if record.get("version") != VERSION:
+        raise LoadError(path, f"version {record.get('version')!r}, wanted {VERSION}", hint="another mien made it")
+    try:
+        for key in record:
+            if key not in KEYS:
+                raise UnknownNameError("key", key, sorted(KEYS))
+        texts = {key: _text(record, key, default) for key, default in _DEFAULTS.items()}
+        return make_head(str(path), texts["hair"], texts["palette"], _values(record), texts["jaw"], texts["doc"])
+    except LoadError:
+        raise
+    except MienError as error:
+        raise LoadError(path, str(error)) from None
+
+
+_DEFAULTS = {"hair": "side_part", "palette": "beige", "jaw": "fitted", "doc": ""}
+
+
+def _text(record: Mapping[str, object], key: str, default: str) -> str:
+    value = record.get(key, default)
+    if not isinstance(value, str):
+        raise MienError(f"{key}: want a text, got {value!r}")
+    return value
+
+
+def _values(record: Mapping[str, object]) -> dict[str, float]:
+    values = record.get("values", {})
+    if not isinstance(values, dict):
+        raise MienError(f"values: want {{name: number, …}}, got {values!r}")
+    out = {}
+    for name, value in values.items():
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise MienError(f"values[{name!r}]: want a number, got {value!r}")
+        out[str(name)] = float(value)
+    return out

@@ -1,0 +1,100 @@
+"""Named poses of the head: eight expressions, and the palettes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+from mien.core import Preset
+
+from .palettes import palette_presets
+
+EXPRESSIONS: Mapping[str, tuple[str, Mapping[str, float]]] = {
+    "neutral": ("At rest.", {}),
+    "smile": (
+        "A friendly smile with raised cheeks.",
+        {
+            "mouth.expression": 0.38,
+            "cheek.raise": 0.30,
+            "mouth.dimple": 0.2,
+            "eyelid.opening": 0.70,
+            "eyebrow.arch": 0.6,
+        },
+    ),
+    "laugh": (
+        "Mouth open, teeth shown, eyes narrowed by the cheeks.",
+        {
+            "mouth.expression": 0.15,
+            "cheek.raise": 0.55,
+            "jaw.rotation": 8.0,
+            "mouth.upper_raise": 0.35,
+            "eyelid.opening": 0.56,
+            "eyebrow.arch": 0.5,
+            "tongue.raise": 0.1,
+        },
+    ),
+    "sad": (
+        "Inner brows up, corners of the mouth down, lids heavy.",
+        {
+            "eyebrow.inner_raise": 0.95,
+            "eyebrow.arch": 0.85,
+            "mouth.frown": 0.75,
+            "chin.raise": 0.42,
+            "eyelid.opening": 0.58,
+            "target.y": -0.2,
+        },
+    ),
+    "angry": (
+        "Brows down and together, lids tight, lips pressed.",
+        {
+            "eyebrow.lower": 0.95,
+            "eyebrow.separation": -6.0,
+            "eyelid.squint": 0.35,
+            "eyelid.opening": 0.72,
+            "nose.wrinkle": 0.32,
+            "mouth.press": 0.4,
+            "mouth.frown": 0.35,
+            "chin.raise": 0.3,
+        },
+    ),
+    "surprised": (
+        "Brows high, eyes wide, jaw dropped.",
+        {
+            "eyebrow.arch": 0.1,
+            "eyebrow.inner_raise": 0.6,
+            "eyelid.opening": 1.0,
+            "jaw.rotation": 10.0,
+            "mouth.width": 0.94,
+        },
+    ),
+    "disgusted": (
+        "Nose wrinkled, upper lip raised, brows down.",
+        {
+            "nose.wrinkle": 0.8,
+            "mouth.upper_raise": 0.45,
+            "eyebrow.lower": 0.5,
+            "eyelid.squint": 0.45,
+            "eyelid.opening": 0.66,
+            "mouth.frown": 0.3,
+            "jaw.rotation": 1.5,
+        },
+    ),
+    "sleepy": (
+        "Lids half down, brows loose, jaw slack.",
+        {
+            "eyelid.opening": 0.27,
+            "eyebrow.arch": 0.95,
+            "eyebrow.inner_raise": 0.2,
+            "jaw.rotation": 0.8,
+            "head.nod": -4.0,
+            "target.y": -0.25,
+        },
+    ),
+}
+
+
+@cache
+def head_presets() -> Mapping[str, Preset]:
+    """Expressions first, then palettes."""
+    out = {name: Preset(name, "expression", values, doc) for name, (doc, values) in EXPRESSIONS.items()}
+    return {**out, **palette_presets()}

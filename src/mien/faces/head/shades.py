@@ -1,0 +1,97 @@
+"""Colours of every vertex from the colour rows: soft regions, baked ambient shade, depth of the mouth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from mien.core import Pose
+from mien.core.mesh import Points
+
+from .measured import Archive, Floats
+
+AMBIENT_POWER = np.array([1.25, 1.75, 1.85])
+"""Baked ambient visibility darkens blue more than red: light that reaches a fold has met skin before."""
+
+
+def color_of(pose: Pose, name: str) -> Floats:
+    """(3,) linear RGB of the rows ``name.color.*``."""
+    first = pose.table.index[f"{name}.color.red"]
+    return pose.values[first : first + 3]
+
+
+def regions(pose: Pose) -> Floats:
+    """(8, 3) colours of the regions skin, warm, lip, shade, light, mouth, nostril, lid rim."""
+    skin, blush, lip, shade = (color_of(pose, name) for name in ("skin", "blush", "lip", "shade"))
+    light = np.minimum(skin * 1.12 + 0.01, 1.0)
+    nostril = skin * 0.07 + np.array([0.012, 0.001, 0.001])
+    rim = 0.55 * blush + 0.45 * np.array([0.60, 0.21, 0.20])
+    return np.stack([skin, blush, lip, shade, light, color_of(pose, "cavity"), nostril, rim])
+
+
+def skin_shade(archive: Archive) -> Floats:
+    """(V, 3) factor on the skin's colours: ambient visibility to a power a channel, dark towards the throat."""
+    ambient = archive.floats("ambient")
+    # x ** p by squaring and roots only: powers are multiples of a quarter.
+    root = np.sqrt(np.sqrt(ambient))
+    columns = []
+    for power in AMBIENT_POWER * 4.0:
+        column = np.ones_like(root)
+        for _ in range(round(float(power))):
+            column = column * root
+        columns.append(column)
+    shade = np.stack(columns, axis=1)
+    inside = archive.floats("region_weights")[:, 5]
+    depth = np.clip((0.094 - archive.floats("cage")[:, 2]) / 0.03, 0.0, 0.9)
+    return shade * (1.0 - inside * depth)[:, None]
+
+
+def blend(weights: Floats, colors: Floats) -> Floats:
+    """(V, 3) mixtures of (R, 3) colours by weights (V, R), summed in order."""
+    out = np.zeros((len(weights), 3))
+    for column, rgb in enumerate(colors):
+        out += weights[:, column, None] * rgb
+    return out
+
+
+def depth_shade(points: Points, from_z_m: float, over_m: float, tint: tuple[float, float, float]) -> Floats:
+    """(N, 3) factor that darkens what lies deep in the mouth, towards a tint."""
+    deep = np.clip((from_z_m - points[:, 2]) / over_m, 0.0, 1.0)[:, None]
+    return 1.0 - deep * (1.0 - np.array(tint))
+
+
+def brow_color(pose: Pose, along: Floats, across: Floats) -> Floats:
+    """(B, 3) of a brow strip: it fades into the skin at both ends, with streaks of hair."""
+    hair, skin = color_of(pose, "eyebrow"), color_of(pose, "skin")
+    start, end = np.clip(1.0 - along / 0.12, 0.0, 1.0), np.clip((along - 0.78) / 0.22, 0.0, 1.0)
+    fade = (0.42 * start + 0.30 * end)[:, None]
+    edge = 0.16 * np.clip((np.abs(across) - 0.3) / 0.2, 0.0, 1.0)[:, None]
+    streak = 1.0 + 0.22 * (np.mod(np.rint(along * 14.0) + np.rint(across * 3.0), 2.0)[:, None] - 0.5)
+    return hair * streak * (1.0 - fade - edge) + skin * (fade + edge)
+
+
+def lid_shadow(points: Points, centre: Floats) -> Floats:
+    """(N, 1) factor: the upper lid's shadow on the ball, and a little at its sides."""
+    up = np.clip((points[:, 1] - centre[1] - 0.0008) / 0.0036, 0.0, 1.0)
+    side = np.clip((np.abs(points[:, 0] - centre[0]) - 0.006) / 0.005, 0.0, 1.0)
+    return ((1.0 - 0.55 * up) * (1.0 - 0.22 * side))[:, None]
+
+
+def palette_key(pose: Pose) -> bytes:
+    """What all constant colours depend on."""
+    first = pose.table.index["skin.color.red"]
+    return pose.values[first:].tobytes()
+
+
+def hair_color(pose: Pose, shade: Floats) -> Floats:
+    """(N, 3) of hair: brightness of each strand, fading to skin at the hairline."""
+    hair, skin = color_of(pose, "hair"), color_of(pose, "skin")
+    bright = np.clip(shade[:, :1], 0.0, 2.0)
+    fade = shade[:, 1:]
+    return np.minimum((hair * 1.15 + 0.004) * bright * bright * (1.0 - fade) + skin * fade, 1.0)
+
+
+def parts_of(values: Mapping[str, Floats]) -> Floats:
+    """Arrays one below another, in order."""
+    return np.concatenate(list(values.values()))

@@ -1,0 +1,99 @@
+"""The table of the head: Parke's expression parameters by his names, ranges and senses, then what they lack."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+
+from mien.core import Parameter, ParameterTable, Pose, both_sides, color
+
+from .palettes import DEFAULT, linear, palettes
+
+SCENE = "Parke 1974, section 3.5"
+
+COLORS = (
+    ("skin", "Skin."),
+    ("blush", "Warmth of cheeks, nose, ears and chin, mixed into the skin."),
+    ("lip", "Lips."),
+    ("shade", "Skin under the eyes and beside the nose."),
+    ("eyebrow", "Eyebrows; lashes are a darker shade of it."),
+    ("hair", "Hair."),
+    ("iris", "Iris."),
+    ("garment", "Collar and shoulders."),
+)
+FIXED_COLORS = (
+    ("fringe", "#23221a", "Fringe around the iris."),
+    ("pupil", "#0a0a0c", "Pupil."),
+    ("spot", "#ffffff", "Reflection spot."),
+    ("white", "#efece6", "White of the eye."),
+    ("tooth", "#f0e9da", "Teeth."),
+    ("gum", "#a85a56", "Gums."),
+    ("tongue", "#b0605e", "Tongue."),
+    ("cavity", "#571f1e", "Inside of the mouth."),
+)
+PLACES = (
+    ("target", "what the eyes look at", (0.0, 0.0, 1.0)),
+    ("light", "the light that the eyes reflect", (-1.5, 1.7, 2.0)),
+    ("viewer", "the viewer, who sees the reflection", (0.0, 0.0, 1.1)),
+)
+
+
+@cache
+def face_rows() -> tuple[dict[str, str], ...]:
+    """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source."""
+    text = files(__package__).joinpath("data/parameters.csv").read_text(encoding="utf-8")
+    return tuple(csv.DictReader(text.splitlines()))
+
+
+@cache
+def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
+    """The parameters of every head; ``own`` are a person's values instead of the defaults, by name.
+
+    Raises:
+        UnknownNameError, RangeError: a value of ``own`` does not fit the table.
+    """
+    table = ParameterTable((*_face(), *_places(), *_colors()))
+    if not own:
+        return table
+    values = Pose.neutral(table).replace(dict(own))
+    return ParameterTable(tuple(replace(row, default=values[row.name]) for row in table))
+
+
+def _face() -> list[Parameter]:
+    rows: list[Parameter] = []
+    for row in face_rows():
+        one = Parameter(
+            row["name"],
+            float(row["low"]),
+            float(row["high"]),
+            float(row["default"]),
+            row["unit"],
+            row["group"],
+            row["mirror"] == "odd",
+            row["doc"],
+            row["source"],
+        )
+        rows += both_sides(one) if row["sides"] else (one,)
+    return rows
+
+
+def _places() -> list[Parameter]:
+    rows = []
+    for group, what, place in PLACES:
+        for axis, value, way in zip("xyz", place, ("to the own left", "up", "forward"), strict=True):
+            doc = f"Place of {what}: {way}. A scene fills it in where the pose leaves it at rest."
+            odd = axis == "x"
+            rows.append(Parameter(f"{group}.{axis}", -100, 100, value, "m", group, odd, doc, SCENE))
+    return rows
+
+
+def _colors() -> list[Parameter]:
+    palette = palettes()[DEFAULT]
+    rows: list[Parameter] = []
+    for name, doc in COLORS:
+        rows += color(f"{name}.color", palette[name], unit="linear light", group="color", doc=doc, source=SCENE)
+    for name, hex_color, doc in FIXED_COLORS:
+        rows += color(f"{name}.color", linear(hex_color), unit="linear light", group="color", doc=doc, source=SCENE)
+    return rows

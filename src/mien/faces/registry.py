@@ -1,0 +1,42 @@
+"""Faces by address: ``head``, ``head:ada``, ``ada.face.json``. The only place that names the kinds."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from mien.core import Face, LoadError, MienError, UnknownNameError
+
+from .head.people import address, people, read_head, shipped_head
+
+SUFFIXES: Mapping[str, Callable[[Path], Face]] = {".face.json": read_head}
+KINDS: Mapping[str, Callable[[str], Face]] = {"head": shipped_head}
+
+
+def face_names() -> list[tuple[str, str]]:
+    """(address, what it is) of every face that is installed."""
+    return [(address(name), row["doc"]) for name, row in people().items()]
+
+
+def load_face(name: str | os.PathLike[str]) -> Face:
+    """The face at an address: a shipped face or a face file.
+
+    Raises:
+        UnknownNameError: no face has that name.
+        LoadError: the file is missing or not a face.
+    """
+    text = os.fspath(name)
+    for suffix, read in SUFFIXES.items():
+        if text.lower().endswith(suffix):
+            path = Path(text)
+            if not path.is_file():
+                raise LoadError(path, "there is no such file")
+            return read(path)
+    if os.sep in text or text.endswith(".json"):
+        raise MienError(f"{text}: not a face file — face files end in {', '.join(SUFFIXES)}")
+    kind, _, rest = text.partition(":")
+    known = [known for known, _ in face_names()]
+    if kind not in KINDS or text not in known:
+        raise UnknownNameError("face", text, known)
+    return KINDS[kind](rest or kind)
