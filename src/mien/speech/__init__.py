@@ -1,1 +1,20 @@
-"""mien.speech."""
+"""Voices, phones and the mouth: from text to sound and to what the face does while it is heard."""
+
+from .phones import PHONES, SILENCE, STOPS, VOWELS, stress_of, strip_stress
+from .speaking import speak
+from .voice import Speech, Utterance, Voice, find_voice, voices
+
+__all__ = [
+    "PHONES",
+    "SILENCE",
+    "STOPS",
+    "VOWELS",
+    "Speech",
+    "Utterance",
+    "Voice",
+    "find_voice",
+    "speak",
+    "stress_of",
+    "strip_stress",
+    "voices",
+]

@@ -1,0 +1,195 @@
+"""A text said by a voice, as one sound with its words and phones."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Cue, MienError, Sound
+
+from .phones import SILENCE, check_symbol
+from .voice import Speech, Utterance, Voice, find_voice
+
+LEAD_S = 0.2
+"""Silence before the first word, seconds, so that a film does not begin in the middle of a sound."""
+
+TAIL_S = 0.35
+"""Silence after the last word, seconds."""
+
+SHORTEST_TAIL_S = 0.05
+SHORTEST_HEAD_S = 0.03
+"""Silence of an utterance's own that is never cut off, seconds: it holds the last of the breath and the first."""
+
+LONGEST_IN_MEMORY_S = 120.0
+"""Sound longer than this goes to a file, seconds."""
+
+Report = Callable[[int, int, str], None]
+
+
+def speak(
+    text: str, voice: str | Voice | None = None, *, report: Report | None = None, folder: Path | str | None = None
+) -> Speech:
+    """A text said: its sound, words and phones.
+
+    Args:
+        text: any text; what the voice cannot say is named in ``skipped``.
+        voice: a voice or the name of one; the built-in one by default.
+        report: called as characters of the text are done, with how many, of how many, and what is being done.
+        folder: where long sound is kept until it is no longer used; the system's temporary folder by default.
+
+    Raises:
+        UnknownNameError: for a voice that is not there.
+        MienError: for a text with nothing that the voice can say.
+    """
+    if not text.strip():
+        raise MienError("the text is empty — write what is to be said, like 'Hello there.'")
+    speaker = find_voice(voice) if voice is None or isinstance(voice, str) else voice
+    store = _Store(speaker.rate_hz, folder)
+    line = _Line(speaker.name, speaker.rate_hz)
+    skipped: dict[str, None] = {}
+    try:
+        for utterance in speaker.utterances(text):
+            skipped.update(dict.fromkeys(utterance.skipped))
+            for samples in line.add(utterance):
+                store.write(samples)
+            if report is not None:
+                report(utterance.done, len(text), "speaking")
+        if not line.words:
+            raise MienError(_say_why_nothing(text, speaker, list(skipped)))
+        store.write(line.finish())
+        return Speech(
+            text,
+            Sound(store.samples(), speaker.rate_hz),
+            tuple(line.words),
+            line.phones(),
+            tuple(skipped),
+            speaker.name,
+        )
+    finally:
+        store.close()
+
+
+def _say_why_nothing(text: str, voice: Voice, skipped: list[str]) -> str:
+    shown = repr(text.strip() if len(text.strip()) <= 40 else text.strip()[:40] + "…")
+    reason = f"it cannot say {', '.join(skipped[:5])}" if skipped else "there is no word in it"
+    return f"text {shown}: voice {voice.name!r} speaks {voice.language}, and {reason} — try a text with words it knows"
+
+
+class _Line:
+    """Utterances laid one after another with the silence between them that each asks for."""
+
+    def __init__(self, voice: str, rate_hz: int) -> None:
+        self._voice, self._rate_hz = voice, rate_hz
+        self._length = 0
+        self._pause = round(LEAD_S * rate_hz)
+        self._phones: list[tuple[int, str]] = []  # first sample and symbol; each lasts until the next
+        self.words: list[Cue] = []
+
+    def add(self, utterance: Utterance) -> Iterator[NDArray[np.int16]]:
+        """Samples to append: the silence before the utterance and its speech, without the silence at its ends."""
+        spoken = [cue for cue in utterance.phones if cue.symbol != SILENCE]
+        if not spoken:
+            return
+        rate = self._rate_hz
+        begin, end = round(spoken[0].start_s * rate), round(spoken[-1].end_s * rate)
+        head = min(begin, round(SHORTEST_HEAD_S * rate))
+        tail = min(len(utterance.samples) - end, round(SHORTEST_TAIL_S * rate))
+        silence = np.zeros(max(0, self._pause - head), np.int16)
+        yield silence
+        yield utterance.samples[begin - head : end + tail]
+        place = self._length + len(silence) + head
+        if place > self._length:
+            self._append(self._length, SILENCE)
+        shift = place - begin
+        last = begin
+        for cue in utterance.phones:
+            start, stop = round(cue.start_s * rate), round(cue.end_s * rate)
+            if start >= end or stop <= begin:
+                continue
+            check_symbol(cue.symbol, self._voice)
+            if start > last:
+                self._append(last + shift, SILENCE)
+            self._append(start + shift, cue.symbol)
+            last = stop
+        self.words += [
+            replace(
+                word,
+                start_s=(round(word.start_s * rate) + shift) / rate,
+                end_s=(round(word.end_s * rate) + shift) / rate,
+            )
+            for word in utterance.words
+        ]
+        self._append(end + shift, SILENCE)
+        self._length = end + tail + shift
+        self._pause = max(0, round(utterance.pause_s * rate) - tail)
+
+    def finish(self) -> NDArray[np.int16]:
+        """The silence at the end, without which the last word sounds cut off."""
+        last = self._phones[-1][0] if self._phones else self._length
+        silence = np.zeros(max(0, round(TAIL_S * self._rate_hz) - (self._length - last)), np.int16)
+        self._length += len(silence)
+        return silence
+
+    def phones(self) -> tuple[Cue, ...]:
+        """Phones from 0 to the end without holes."""
+        edges = [start / self._rate_hz for start, _ in self._phones] + [self._length / self._rate_hz]
+        return tuple(
+            Cue(start, end, symbol)
+            for start, end, (_, symbol) in zip(edges, edges[1:], self._phones, strict=False)
+            if end > start
+        )
+
+    def _append(self, start: int, symbol: str) -> None:
+        if symbol == SILENCE and self._phones and self._phones[-1][1] == SILENCE:
+            return
+        self._phones.append((start, symbol))
+
+
+class _Store:
+    """Samples in memory, and in a file without a name once there are many."""
+
+    def __init__(self, rate_hz: int, folder: Path | str | None) -> None:
+        self._parts: list[NDArray[np.int16]] = []
+        self._count = 0
+        self._most = round(LONGEST_IN_MEMORY_S * rate_hz)
+        self._folder = folder
+        self._file: tempfile._TemporaryFileWrapper[bytes] | None = None
+
+    def write(self, samples: NDArray[np.int16]) -> None:
+        """Samples appended."""
+        self._parts.append(samples)
+        self._count += len(samples)
+        if self._count > self._most:
+            self._flush()
+
+    def samples(self) -> NDArray[np.int16]:
+        """All samples, (N,); those of a file are mapped, and the file goes when the map does."""
+        if self._file is None:
+            return np.concatenate([np.zeros(0, np.int16), *self._parts])
+        self._flush()
+        return np.memmap(self._file, dtype=np.int16, mode="r", shape=(self._count,))
+
+    def close(self) -> None:
+        """The file's name given back; a map of it stays good."""
+        if self._file is not None:
+            self._file.close()
+
+    def _flush(self) -> None:
+        try:
+            if self._file is None:
+                self._file = tempfile.NamedTemporaryFile(prefix="mien-", suffix=".pcm", dir=self._folder)  # noqa: SIM115
+            for part in self._parts:
+                self._file.write(part.tobytes())
+            self._file.flush()
+        except OSError as error:
+            place = self._folder or tempfile.gettempdir()
+            raise MienError(
+                f"{place}: cannot keep {2 * self._count >> 20} MB of speech here: {error.strerror} — "
+                "set TMPDIR to a folder with room"
+            ) from None
+        self._parts.clear()
