@@ -1,0 +1,223 @@
+"""A remap: what each value under one set of names does to values under another."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib import resources
+
+import numpy as np
+
+from mien.core import LoadError, MienError, ParameterTable, UnknownNameError
+from mien.core.sparse import SparseMatrix
+from mien.timeline import Track
+
+FOLDER = "data"
+COLUMNS = ("parameter", "gain", "source")
+BLENDS = ("add", "multiply")
+
+
+@dataclass(frozen=True, eq=False)
+class Remap:
+    """Two sparse matrices from the names of a vocabulary to the parameters of a family of faces.
+
+    A value v of a name adds ``gain * v`` to a parameter, or multiplies it by ``1 + gain * v`` (a blink shuts an eye
+    however wide an expression has opened it).
+
+    Attributes:
+        title: ``vocabulary.family``, for messages.
+        from_names: names that are given.
+        to_names: parameters that are played.
+        gains: (to, from) what is added.
+        factors: (to, from) what multiplies, less 1.
+        sources: where each row of the table comes from: (from, to) -> text.
+    """
+
+    title: str
+    from_names: tuple[str, ...]
+    to_names: tuple[str, ...]
+    gains: SparseMatrix
+    factors: SparseMatrix
+    sources: Mapping[tuple[str, str], str]
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """Column of each name that is given."""
+        return {name: column for column, name in enumerate(self.from_names)}
+
+    def apply(self, values: Mapping[str, float]) -> dict[str, float]:
+        """What the values add to parameters, for those parameters that they reach.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+        """
+        return self._apply(self.gains, values, 0.0)
+
+    def scale(self, values: Mapping[str, float]) -> dict[str, float]:
+        """What parameters are to be multiplied by, for those that the values reach.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+        """
+        return self._apply(self.factors, values, 1.0)
+
+    def apply_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
+        """Tracks of what is added to each parameter that the given tracks reach.
+
+        Exact: sums of straight lines have a key wherever one of them has; a track that reaches a parameter alone
+        keeps its change functions. Before its first key a track counts with the value of that key.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+            MienError: tracks to be added are not made of keys and straight lines.
+        """
+        return self._apply_tracks(self.gains, tracks, 0.0)
+
+    def scale_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
+        """Tracks of what parameters are multiplied by; otherwise as ``apply_tracks``."""
+        return self._apply_tracks(self.factors, tracks, 1.0)
+
+    def reached_by(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Parameters that some of the names add to, in order."""
+        columns = {self._column(name) for name in names}
+        return tuple(name for row, name in enumerate(self.to_names) if columns & _entries(self.gains, row).keys())
+
+    def check(self, known_from: ParameterTable, known_to: ParameterTable) -> None:
+        """Nothing, when both sets of names exist.
+
+        Raises:
+            UnknownNameError: a name on either side is in no table.
+        """
+        for names, table in ((self.from_names, known_from), (self.to_names, known_to)):
+            for name in names:
+                if name not in table:
+                    raise UnknownNameError(f"name in the table {self.title!r}:", name, table.names)
+
+    def _column(self, name: str) -> int:
+        if name not in self.index:
+            raise UnknownNameError(f"name in the vocabulary of {self.title!r}:", name, self.from_names)
+        return self.index[name]
+
+    def _apply(self, matrix: SparseMatrix, values: Mapping[str, float], rest: float) -> dict[str, float]:
+        vector = np.zeros((len(self.from_names), 1))
+        for name, value in values.items():
+            vector[self._column(name)] = value
+        given = {self._column(name) for name in values}
+        product = matrix.apply(vector)[:, 0]
+        return {
+            name: rest + float(product[row])
+            for row, name in enumerate(self.to_names)
+            if given & _entries(matrix, row).keys()
+        }
+
+    def _apply_tracks(self, matrix: SparseMatrix, tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
+        given = {self._column(name): track for name, track in tracks.items()}
+        out = {}
+        for row, name in enumerate(self.to_names):
+            parts = [(gain, given[column]) for column, gain in _entries(matrix, row).items() if column in given]
+            if parts:
+                out[name] = weigh(parts, rest, name=name)
+        return out
+
+
+def weigh(parts: list[tuple[float, Track]], rest: float = 0.0, *, name: str = "") -> Track:
+    """The track ``rest`` + the sum of gain times track over the parts.
+
+    Raises:
+        MienError: there are several and one is not made of keys and straight lines.
+    """
+    if len(parts) == 1:
+        gain, track = parts[0]
+        first, last = rest + gain * track.first, rest + gain * track.last
+        return Track(track.start_s, track.end_s, first, last, track.change, name)
+    keys = [_straight_keys(track, name) for _, track in parts]
+    times = np.unique(np.concatenate([when for when, _ in keys]))
+    total = np.full(len(times), rest)
+    for (gain, track), (when, values) in zip(parts, keys, strict=True):
+        total += gain * np.where(times < when[0], values[0], track.evaluate(times)[0])
+    return Track.from_keys(times, total, name=name)
+
+
+@lru_cache(maxsize=32)
+def load_remap(vocabulary: str, family: str) -> Remap:
+    """The shipped remap from a vocabulary to a family of faces.
+
+    Raises:
+        MienError: there is no table for the two.
+    """
+    known = families(vocabulary)
+    if family not in known:
+        others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
+        raise MienError(f"vocabulary {vocabulary!r} cannot play faces of the family {family!r} — {others}")
+    name = f"{vocabulary}.{family}.csv"
+    text = resources.files("mien.vocab").joinpath(FOLDER, name).read_text(encoding="utf-8")
+    return parse_remap(text, title=f"{vocabulary}.{family}", place=name)
+
+
+def families(vocabulary: str) -> tuple[str, ...]:
+    """Families of faces that a vocabulary can play."""
+    names = sorted(entry.name for entry in resources.files("mien.vocab").joinpath(FOLDER).iterdir())
+    parts = [name.removesuffix(".csv").split(".") for name in names if name.endswith(".csv")]
+    return tuple(part[1] for part in parts if len(part) == 2 and part[0] == vocabulary)
+
+
+def parse_remap(text: str, *, title: str, place: str) -> Remap:
+    """The remap in a table: lines of name, parameter, gain, blend (add, or multiply) and source.
+
+    Raises:
+        LoadError: with the line at which the table goes wrong.
+    """
+    reader = csv.DictReader(text.splitlines())
+    fields = list(reader.fieldnames or [])
+    if len(fields) < 4 or not set(COLUMNS) <= set(fields):
+        raise LoadError(place, f"want a name and the columns {', '.join(COLUMNS)}, got {', '.join(fields)}", line=1)
+    from_names: dict[str, int] = {}
+    to_names: dict[str, int] = {}
+    entries: dict[str, list[tuple[int, int, float]]] = {blend: [] for blend in BLENDS}
+    sources: dict[tuple[str, str], str] = {}
+    for row in reader:
+        name, parameter, gain, blend = _parse_row(row, fields[0], place, reader.line_num)
+        column = from_names.setdefault(name, len(from_names))
+        entries[blend].append((to_names.setdefault(parameter, len(to_names)), column, gain))
+        sources[name, parameter] = row["source"]
+    shape = (len(to_names), len(from_names))
+    gains, factors = (_matrix(entries[blend], shape) for blend in BLENDS)
+    return Remap(title, tuple(from_names), tuple(to_names), gains, factors, sources)
+
+
+def _parse_row(row: Mapping[str, str], first: str, place: str, line: int) -> tuple[str, str, float, str]:
+    if None in row.values() or None in row:
+        raise LoadError(place, f"want {len(row)} fields", line=line)
+    try:
+        gain = float(row["gain"])
+    except ValueError:
+        gain = math.nan
+    if not math.isfinite(gain):
+        raise LoadError(place, f"gain {row['gain']!r} is not a finite number", line=line)
+    blend = row.get("blend") or BLENDS[0]
+    if blend not in BLENDS:
+        raise LoadError(place, f"blend {blend!r} is not {' or '.join(BLENDS)}", line=line)
+    return row[first], row["parameter"], gain, blend
+
+
+def _matrix(entries: list[tuple[int, int, float]], shape: tuple[int, int]) -> SparseMatrix:
+    rows = np.array([row for row, _, _ in entries], dtype=np.int64)
+    columns = np.array([column for _, column, _ in entries], dtype=np.int64)
+    return SparseMatrix.from_entries(rows, columns, np.array([gain for _, _, gain in entries], dtype=np.float64), shape)
+
+
+def _entries(matrix: SparseMatrix, row: int) -> dict[int, float]:
+    part = slice(int(matrix.starts[row]), int(matrix.starts[row + 1]))
+    return {
+        int(column): float(weight) for column, weight in zip(matrix.columns[part], matrix.weights[part], strict=True)
+    }
+
+
+def _straight_keys(track: Track, name: str) -> tuple[np.ndarray, np.ndarray]:
+    keys = track.keys()
+    if keys is None or np.any(track.change) or np.any(np.diff(keys[0]) <= 0.0):
+        raise MienError(f"tracks that add up in {name!r} must be keys and straight lines without jumps")
+    return keys
