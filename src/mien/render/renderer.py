@@ -101,8 +101,8 @@ class Renderer:
 
         if not self._rows:
             self._rows = [np.empty((4, BAND_ROWS, width * n), dtype=np.float32) for _ in range(self.threads)]
-        picture = np.empty((height, width, 4), dtype=np.uint8)
-        plain = straight(self._behind)
+        picture = np.empty((height, width), dtype=np.uint32)
+        plain = straight(self._behind).view(np.uint32).reshape(-1)
         frame = (edges, planes, counts, members)
         self._share(
             spans.draw_bands,
@@ -123,7 +123,7 @@ class Renderer:
                 for k in range(self.threads)
             ],
         )
-        return picture
+        return picture.view(np.uint8).reshape(height, width, 4)
 
     def _share(self, work: object, arguments: list[tuple[object, ...]]) -> None:
         """Do some compiled work once for each tuple, the first here and the others on the threads."""

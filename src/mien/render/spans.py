@@ -22,9 +22,6 @@ def _compiled(function: Callable[..., Any]) -> Any:
     return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=False)(function)
 
 
-SHORT = 12
-"""Spans of fewer pixels take a plain loop: a vector loop would cost more to begin than it saves."""
-
 
 @_compiled
 def set_up(places, inverse, corners, colors, color_of, first, last, edges, planes):
@@ -101,140 +98,168 @@ def _first_centre(numerator, denominator):
 
 
 @_compiled
-def _long_span(depth, red, green, blue, z0, dz, r0, dr, g0, dg, b0, db):
-    # Slices from 0 on, and selects instead of branches: only so does the loop become vector code.
-    for x in range(len(depth)):
-        step = np.float32(np.int32(x))
-        z = z0 + dz * step
-        scale = np.float32(1.0) / z
-        near = z > depth[x]
-        red[x] = (r0 + dr * step) * scale if near else red[x]
-        green[x] = (g0 + dg * step) * scale if near else green[x]
-        blue[x] = (b0 + db * step) * scale if near else blue[x]
-        depth[x] = z if near else depth[x]
+def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, reach):
+    """Draw rows top:end of triangle t; ``reach`` (rows, 2) keeps the columns that were touched.
 
-
-@_compiled
-def _draw_triangle(edge, plane, top, end, width, depth, red, green, blue, reach):
-    """Draw rows top:end of one triangle; ``reach`` (rows, 2) keeps the columns that were touched."""
-    ax, ay, bx, by, cx, cy = edge[4], edge[5], edge[6], edge[7], edge[8], edge[9]
-    origin_x, origin_y = plane[4, 0], plane[4, 1]
+    The sample planes are flat here and their places unsigned: Numba then drops its test for negative indices, and
+    only so does the loop over a span become vector code.
+    """
+    ax, ay, bx = edges[t, 4], edges[t, 5], edges[t, 6]
+    by, cx, cy = edges[t, 7], edges[t, 8], edges[t, 9]
+    long_right = edges[t, 3] == 1
+    middle = edges[t, 1]
     one = np.float32(1.0)
-    dz, dr, dg, db = (
-        np.float32(plane[0, 1] * 256.0),
-        np.float32(plane[1, 1] * 256.0),
-        np.float32(plane[2, 1] * 256.0),
-        np.float32(plane[3, 1] * 256.0),
-    )
-    for y in range(max(edge[0], top), min(edge[2], end)):
+    origin_x, origin_y = planes[t, 4, 0], planes[t, 4, 1]
+    zv, zx, zy = planes[t, 0, 0], planes[t, 0, 1], planes[t, 0, 2]
+    rv, rx, ry = planes[t, 1, 0], planes[t, 1, 1], planes[t, 1, 2]
+    gv, gx, gy = planes[t, 2, 0], planes[t, 2, 1], planes[t, 2, 2]
+    bv, bx_, by_ = planes[t, 3, 0], planes[t, 3, 1], planes[t, 3, 2]
+    dz, dr = np.float32(zx * 256.0), np.float32(rx * 256.0)
+    dg, db = np.float32(gx * 256.0), np.float32(bx_ * 256.0)
+    for y in range(max(edges[t, 0], top), min(edges[t, 2], end)):
         centre = y * 256 + 128
         far = _first_centre(float((ax - 128) * (cy - ay) + (centre - ay) * (cx - ax)), float(256 * (cy - ay)))
-        if y < edge[1]:
+        if y < middle:
             near = _first_centre(float((ax - 128) * (by - ay) + (centre - ay) * (bx - ax)), float(256 * (by - ay)))
         else:
             near = _first_centre(float((bx - 128) * (cy - by) + (centre - by) * (cx - bx)), float(256 * (cy - by)))
-        left, right = (near, far) if edge[3] else (far, near)
+        left, right = (near, far) if long_right else (far, near)
         left, right = max(left, 0), min(right, width)
         if left >= right:
             continue
         dx, dy = float(left * 256 + 128) - origin_x, float(centre) - origin_y
-        z0 = np.float32((plane[0, 0] + plane[0, 2] * dy) + plane[0, 1] * dx)
-        r0 = np.float32((plane[1, 0] + plane[1, 2] * dy) + plane[1, 1] * dx)
-        g0 = np.float32((plane[2, 0] + plane[2, 2] * dy) + plane[2, 1] * dx)
-        b0 = np.float32((plane[3, 0] + plane[3, 2] * dy) + plane[3, 1] * dx)
+        z0, r0 = np.float32((zv + zy * dy) + zx * dx), np.float32((rv + ry * dy) + rx * dx)
+        g0, b0 = np.float32((gv + gy * dy) + gx * dx), np.float32((bv + by_ * dy) + bx_ * dx)
         row = y - top
         reach[row, 0] = min(reach[row, 0], left)
         reach[row, 1] = max(reach[row, 1], right)
-        if right - left >= SHORT:
-            _long_span(
-                depth[row, left:right],
-                red[row, left:right],
-                green[row, left:right],
-                blue[row, left:right],
-                z0,
-                dz,
-                r0,
-                dr,
-                g0,
-                dg,
-                b0,
-                db,
-            )
-            continue
-        for x in range(left, right):
-            step = np.float32(np.int32(x - left))
+        first = np.uint64(row * width + left)
+        for x in range(np.uint64(right - left)):
+            i = first + np.uint64(x)
+            step = np.float32(np.int32(x))
             z = z0 + dz * step
-            if z > depth[row, x]:
+            if z > depth[i]:
                 scale = one / z
-                depth[row, x] = z
-                red[row, x] = (r0 + dr * step) * scale
-                green[row, x] = (g0 + dg * step) * scale
-                blue[row, x] = (b0 + db * step) * scale
+                depth[i] = z
+                red[i] = (r0 + dr * step) * scale
+                green[i] = (g0 + dg * step) * scale
+                blue[i] = (b0 + db * step) * scale
 
 
 @_compiled
 def _encode(value, low, borders):
     value = min(max(value, np.float32(0.0)), np.float32(1.0))
     code = low[int(value * np.float32(16384.0))]
-    return np.uint8(code + 1) if value >= borders[code] else code
+    return np.uint32(code) + np.uint32(value >= borders[code])
+
+
+@_compiled
+def _pack(red, green, blue, alpha, low, borders):
+    """One pixel, its bytes red, green, blue, alpha, of linear colour multiplied by alpha."""
+    one = np.float32(1.0)
+    if alpha <= np.float32(0.0):
+        return np.uint32(0)
+    if alpha != one:
+        red, green, blue = red / alpha, green / alpha, blue / alpha
+    opacity = np.uint32(np.int32(min(alpha, one) * np.float32(255.0) + np.float32(0.5)))
+    low_half = _encode(red, low, borders) | (_encode(green, low, borders) << np.uint32(8))
+    return low_half | (_encode(blue, low, borders) << np.uint32(16)) | (opacity << np.uint32(24))
+
+
+@_compiled
+def _resolve_single(depth, red, green, blue, behind, plain, low, borders, out):
+    """Pixels of a row of samples, one each."""
+    one = np.float32(1.0)
+    for x in range(len(out)):
+        if depth[x] > np.float32(0.0):
+            out[x] = _pack(red[x], green[x], blue[x], one, low, borders)
+        else:
+            out[x] = plain
+
+
+@_compiled
+def _average(upper, lower, x, u0, u1, l0, l1, behind):
+    """Mean of four samples; those not drawn are what is behind."""
+    left = upper[2 * x] if u0 else behind
+    right = upper[2 * x + 1] if u1 else behind
+    left_below = lower[2 * x] if l0 else behind
+    right_below = lower[2 * x + 1] if l1 else behind
+    return ((left + right) + (left_below + right_below)) * np.float32(0.25)
+
+
+@_compiled
+def _resolve_four(depth, red, green, blue, behind, plain, low, borders, out):
+    """Pixels of two rows of samples, four each."""
+    nothing, one = np.float32(0.0), np.float32(1.0)
+    upper, lower = depth[0], depth[1]
+    for x in range(len(out)):
+        u0, u1 = upper[2 * x] > nothing, upper[2 * x + 1] > nothing
+        l0, l1 = lower[2 * x] > nothing, lower[2 * x + 1] > nothing
+        if not (u0 or u1 or l0 or l1):
+            out[x] = plain
+            continue
+        r = _average(red[0], red[1], x, u0, u1, l0, l1, behind[0])
+        g = _average(green[0], green[1], x, u0, u1, l0, l1, behind[1])
+        b = _average(blue[0], blue[1], x, u0, u1, l0, l1, behind[2])
+        a = behind[3]
+        alpha = (((one if u0 else a) + (one if u1 else a)) + ((one if l0 else a) + (one if l1 else a))) * np.float32(0.25)
+        out[x] = _pack(r, g, b, alpha, low, borders)
 
 
 @_compiled
 def _resolve_row(depth, red, green, blue, row, n, reach, behind, plain, low, borders, out):
-    """One row of pixels out of n rows of samples."""
-    first, last = reach[row, 0] // n, (reach[row, 1] + n - 1) // n
+    """One row of pixels out of n rows of samples from ``row`` on."""
+    first, last = reach[row, 0], reach[row, 1]
     if n == 2:
-        first = min(first, reach[row + 1, 0] // n)
-        last = max(last, (reach[row + 1, 1] + n - 1) // n)
+        first, last = min(first, reach[row + 1, 0]) // 2, (max(last, reach[row + 1, 1]) + 1) // 2
     if first >= last:
         first = last = 0
-    for x in range(first):
-        out[x] = plain
-    for x in range(last, len(out)):
-        out[x] = plain
-    nothing, one, quarter = np.float32(0.0), np.float32(1.0), np.float32(0.25)
-    total = np.empty(4, dtype=np.float32)
-    sample = np.empty((4, 4), dtype=np.float32)
-    for x in range(first, last):
-        drawn = 0
-        for k in range(n * n):
-            i, j = row + k // n, x * n + k % n
-            if depth[i, j] > nothing:
-                drawn += 1
-                sample[k, 0], sample[k, 1], sample[k, 2], sample[k, 3] = red[i, j], green[i, j], blue[i, j], one
-            else:
-                for c in range(4):
-                    sample[k, c] = behind[c]
-        if drawn == 0:
-            out[x] = plain
-            continue
-        for c in range(4):
-            if n == 2:
-                total[c] = ((sample[0, c] + sample[1, c]) + (sample[2, c] + sample[3, c])) * quarter
-            else:
-                total[c] = sample[0, c]
-        alpha = total[3]
-        for c in range(3):
-            value = total[c] / alpha if alpha > nothing else nothing
-            out[x, c] = _encode(value, low, borders)
-        out[x, 3] = np.uint8(min(alpha, one) * np.float32(255.0) + np.float32(0.5))
+    out[:first] = plain
+    out[last:] = plain
+    rows, part = slice(row, row + n), slice(first * n, last * n)
+    if n == 2:
+        _resolve_four(
+            depth[rows, part],
+            red[rows, part],
+            green[rows, part],
+            blue[rows, part],
+            behind,
+            plain,
+            low,
+            borders,
+            out[first:last],
+        )
+    else:
+        _resolve_single(
+            depth[row, part],
+            red[row, part],
+            green[row, part],
+            blue[row, part],
+            behind,
+            plain,
+            low,
+            borders,
+            out[first:last],
+        )
 
 
 @_compiled
 def draw_bands(
     start, stride, band_rows, n, edges, planes, counts, members, rows, reach, behind, plain, low, borders, out
 ):
-    """Draw bands start, start + stride, …: ``rows`` (4, band_rows, W n) are this thread's own, ``out`` (H, W, 4)."""
+    """Draw bands start, start + stride, …: ``rows`` (4, band_rows, W n) are this thread's own, ``out`` (H, W) packed."""
     height, width = out.shape[0] * n, out.shape[1] * n
     depth, red, green, blue = rows[0], rows[1], rows[2], rows[3]
+    flat = depth.reshape(-1), red.reshape(-1), green.reshape(-1), blue.reshape(-1)
     for b in range(start, len(counts) - 1, stride):
         top, end = b * band_rows, min((b + 1) * band_rows, height)
         depth[:] = np.float32(0.0)
         reach[:, 0] = width
         reach[:, 1] = 0
         for m in range(counts[b], counts[b + 1]):
-            t = members[m]
-            _draw_triangle(edges[t], planes[t], top, end, width, depth, red, green, blue, reach)
+            _draw_triangle(
+                edges, planes, members[m], top, end, width, flat[0], flat[1], flat[2], flat[3], reach
+            )
         for y in range(top // n, end // n):
             row = y * n - top
             _resolve_row(depth, red, green, blue, row, n, reach, behind[y], plain[y], low, borders, out[y])
