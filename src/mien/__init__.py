@@ -1,1 +1,104 @@
-"""Faces you can play."""
+"""Faces you can play: type a sentence, and a face says it.
+
+Names are imported when they are first used, so that ``import mien`` alone costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .api import draw, face_names, load_face, perform, play, say, speak, voices
+    from .core import (
+        Cue,
+        Face,
+        Light,
+        LoadError,
+        Mesh,
+        MienError,
+        Parameter,
+        ParameterTable,
+        Pose,
+        RangeError,
+        Scene,
+        Sound,
+        UnknownNameError,
+    )
+    from .formats.picture import Picture
+    from .perform import Performance
+    from .speech import Speech
+    from .timeline import Layer, Timeline, Track
+
+    __version__: str
+
+__all__ = [
+    "Cue",
+    "Face",
+    "Layer",
+    "Light",
+    "LoadError",
+    "Mesh",
+    "MienError",
+    "Parameter",
+    "ParameterTable",
+    "Performance",
+    "Picture",
+    "Pose",
+    "RangeError",
+    "Scene",
+    "Sound",
+    "Speech",
+    "Timeline",
+    "Track",
+    "UnknownNameError",
+    "__version__",
+    "draw",
+    "face_names",
+    "load_face",
+    "perform",
+    "play",
+    "say",
+    "speak",
+    "voices",
+]
+
+_HOMES = {
+    "mien.api": ("draw", "face_names", "load_face", "perform", "play", "say", "speak", "voices"),
+    "mien.formats.picture": ("Picture",),
+    "mien.perform": ("Performance",),
+    "mien.speech": ("Speech",),
+    "mien.timeline": ("Layer", "Timeline", "Track"),
+    "mien.core": (
+        "Cue",
+        "Face",
+        "Light",
+        "LoadError",
+        "Mesh",
+        "MienError",
+        "Parameter",
+        "ParameterTable",
+        "Pose",
+        "RangeError",
+        "Scene",
+        "Sound",
+        "UnknownNameError",
+    ),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("mien")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'mien' has no attribute {name!r}")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

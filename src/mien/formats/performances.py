@@ -131,12 +131,12 @@ def draw_frames(
     """Each frame (H, W, 4) uint8, sRGB with straight alpha, in order; frame k shows the moment k / fps."""
     from mien.render import Renderer
 
-    renderer = Renderer(scene, threads or default_threads())
     total = timeline.frame_count(fps)
-    for number, pose in enumerate(timeline.poses(face.parameters, fps), start=1):
-        yield renderer.draw(face, pose)
-        if report:
-            report(number, total)
+    with Renderer(scene, threads or default_threads()) as renderer:
+        for number, pose in enumerate(timeline.poses(face.parameters, fps), start=1):
+            yield renderer.draw(face, pose)
+            if report:
+                report(number, total)
 
 
 def default_threads() -> int:

@@ -1,0 +1,194 @@
+"""What a program calls: load a face, draw it, let it speak."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .core import Face, Pose, Scene, UnknownNameError
+from .formats.notes import notes
+from .formats.performances import default_threads
+from .timeline import Layer, Timeline, Track
+
+if TYPE_CHECKING:
+    from .formats.picture import Picture
+    from .perform import Performance, Style
+    from .speech import Speech, Voice
+    from .speech.speaking import Report
+
+DEFAULT_FACE = "head"
+
+SETTINGS = "settings"
+"""Name of the lowest layer of a timeline: what the face looks like while nothing moves it."""
+
+
+def default_scene() -> Scene:
+    """The scene where none is asked for: seen a little from its left."""
+    return Scene().seen("three-quarter")
+
+
+def face_names() -> list[tuple[str, str]]:
+    """(address, what it is) of every face that is installed."""
+    from .faces.registry import face_names
+
+    return face_names()
+
+
+def load_face(address: str | PathLike[str] = DEFAULT_FACE) -> Face:
+    """The face at an address: ``head``, ``head:NAME``, or a path to a face file.
+
+    Raises:
+        UnknownNameError: no face has that name.
+        LoadError: the file is missing or not a face.
+    """
+    from .faces.registry import load_face
+
+    return load_face(fspath(address))
+
+
+def voices() -> Mapping[str, Voice]:
+    """The voices that can speak on this machine, by name, the built-in one first."""
+    from .speech import voices
+
+    return voices()
+
+
+def find_voice(name: str | None = None) -> Voice:
+    """The voice of that name; the built-in one without a name.
+
+    Raises:
+        UnknownNameError: there is none of that name.
+    """
+    from .speech import find_voice
+
+    return find_voice(name)
+
+
+def make_pose(face: Face, values: Mapping[str, float] | None = None, *, presets: Iterable[str] = ()) -> Pose:
+    """The pose of a face with presets, a later one over an earlier one, and values over all of them.
+
+    Raises:
+        UnknownNameError: a preset or a parameter is unknown.
+        RangeError: a value is not finite or out of its range.
+    """
+    pose = Pose.neutral(face.parameters)
+    for name in presets:
+        if name not in face.presets:
+            raise UnknownNameError(f"preset of {face.name!r}", name, face.presets)
+        pose = pose.replace(face.presets[name].values)
+    return pose.replace(values or {})
+
+
+def draw(
+    face: Face | str = DEFAULT_FACE,
+    pose: Pose | Mapping[str, float] | None = None,
+    scene: Scene | None = None,
+    *,
+    threads: int | None = None,
+) -> Picture:
+    """A picture of a face: it can be written, and shows itself in a notebook.
+
+    Args:
+        face: a face or its address.
+        pose: a pose of it, or the values that differ from neutral.
+        scene: where it is seen from, light, size; None is a slight three-quarter view.
+        threads: None is one a core; the picture does not depend on it.
+    """
+    from .formats.picture import Picture
+    from .render import draw as draw_pixels
+
+    face = load_face(face) if isinstance(face, str) else face
+    pose = pose if isinstance(pose, Pose) else make_pose(face, pose)
+    pixels = draw_pixels(face, pose, scene or default_scene(), threads=threads or default_threads())
+    return Picture(pixels, notes(face.name))
+
+
+def speak(text: str, voice: str | None = None, *, report: Report | None = None) -> Speech:
+    """The text said by a voice: sound, words and phones with their times, and what could not be said.
+
+    Raises:
+        MienError: there is nothing to say.
+        UnknownNameError: there is no such voice.
+    """
+    from .speech import speak
+
+    return speak(text, voice, report=report)
+
+
+def perform(
+    speech: Speech,
+    face: Face | str = DEFAULT_FACE,
+    *,
+    seed: int = 0,
+    style: Style | None = None,
+    emotion: str | None = None,
+    pose: Pose | None = None,
+    scene: Scene | None = None,
+) -> Performance:
+    """What a face does while it says something, with the sound; ``write`` makes a film of it.
+
+    Args:
+        speech: what ``speak`` gave.
+        face: a face or its address.
+        seed: of blinks, small movements and brows.
+        style: how lively; None is the usual.
+        emotion: a preset of the face that shows through.
+        pose: what the face looks like while nothing moves it; None is neutral.
+        scene: where it is seen from; None is a slight three-quarter view.
+    """
+    from .perform import Style
+    from .perform import perform as make
+
+    face = load_face(face) if isinstance(face, str) else face
+    performance = make(speech, face, seed=seed, style=style or Style(), emotion=emotion)
+    timeline = with_settings(performance.timeline, pose) if pose else performance.timeline
+    return replace(performance, timeline=timeline, scene=scene or default_scene())
+
+
+def say(
+    text: str,
+    face: Face | str = DEFAULT_FACE,
+    *,
+    voice: str | None = None,
+    seed: int = 0,
+    emotion: str | None = None,
+    scene: Scene | None = None,
+) -> Performance:
+    """A face that says a text: ``mien.say("Hello there.").write("hello.mp4")``."""
+    face = load_face(face) if isinstance(face, str) else face
+    return perform(speak(text, voice), face, seed=seed, emotion=emotion, scene=scene)
+
+
+def play(path: Path | str, face: Face | str | None = None, *, fps: float | None = None) -> Performance:
+    """The performance in a ``.json``, ``.csv`` or ``.spec`` file, with its sound if it has one.
+
+    Args:
+        path: the file.
+        face: who plays it; None is the face it was made for, or the head.
+        fps: what a column ``frame`` of a CSV file counts in.
+
+    Raises:
+        LoadError: the file cannot be understood, or does not fit the face.
+    """
+    from .formats.timeline_files import read_timeline
+    from .perform import Performance
+
+    def find(address: str) -> Face:
+        return face if face is not None and not isinstance(face, str) else load_face(address)
+
+    stored = read_timeline(path, find, face if isinstance(face, str) else None, fps=fps)
+    return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene())
+
+
+def with_settings(timeline: Timeline, pose: Pose) -> Timeline:
+    """The timeline with what a pose changes as its lowest layer; everything else acts on top of it."""
+    before = {layer.name: layer for layer in timeline.layers}.get(SETTINGS)
+    tracks = {
+        **(before.tracks if before else {}),
+        **{name: Track.from_keys([0.0], [value], name=name) for name, value in pose.changed().items()},
+    }
+    others = tuple(layer for layer in timeline.layers if layer.name != SETTINGS)
+    return replace(timeline, layers=(Layer(SETTINGS, "replace", tracks), *others)) if tracks else timeline

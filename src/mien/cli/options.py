@@ -1,0 +1,66 @@
+"""The options that commands share, each written once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+FaceName = Annotated[str, typer.Argument(metavar="FACE", help="A face: a name from 'mien faces', or a face file.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+
+Face = Annotated[str, typer.Option("--face", metavar="FACE", help="Who: a name from 'mien faces', or a face file.")]
+OtherFace = Annotated[
+    str | None, typer.Option("--face", metavar="FACE", help="Who plays it; the file's own face unless said.")
+]
+Sets = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="Set a parameter ('mien params FACE'); may be repeated."),
+]
+Presets = Annotated[
+    list[str] | None,
+    typer.Option("--preset", metavar="NAME", help="Start from a preset ('mien presets FACE'); may be repeated."),
+]
+
+Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]
+Film = Annotated[
+    Path,
+    typer.Option(
+        "-o", "--out", metavar="OUT", help="Film .mp4; frames: a folder or f_%04d.png; .wav; data: .json .csv"
+    ),
+]
+OptionalFilm = Annotated[
+    Path | None,
+    typer.Option(
+        "-o", "--out", metavar="OUT", help="Film .mp4; frames: a folder or f_%04d.png; .wav; data: .json .csv"
+    ),
+]
+
+Size = Annotated[str | None, typer.Option("--size", metavar="WxH", help="Pixels: 1024 or 1280x720.  [default: 1024]")]
+Fps = Annotated[float | None, typer.Option("--fps", metavar="N", help="Frames a second, 1 to 240.  [default: 24]")]
+View = Annotated[
+    str | None,
+    typer.Option("--view", metavar="NAME", help="front, three-quarter or side.  [default: three-quarter]"),
+]
+From = Annotated[
+    str | None, typer.Option("--from", metavar="X,Y,Z", help="Where the camera stands, metres, instead of --view.")
+]
+At = Annotated[str | None, typer.Option("--at", metavar="X,Y,Z", help="What the camera looks at, metres.")]
+Fov = Annotated[float | None, typer.Option("--fov", metavar="DEG", help="Field of view, degrees.")]
+Shading = Annotated[
+    str | None, typer.Option("--shading", metavar="NAME", help="smooth, polygon or wire.  [default: smooth]")
+]
+Subdivide = Annotated[
+    int | None, typer.Option("--subdivide", metavar="N", help="Rounding of the skin: 0, 1 or 2.  [default: 2]")
+]
+Background = Annotated[
+    str | None,
+    typer.Option(
+        "--background", metavar="COLOR", help="white, #336699, transparent, or bottom:top, as in navy:skyblue."
+    ),
+]
+Threads = Annotated[
+    int | None, typer.Option("--threads", metavar="N", help="Threads that draw; the picture does not depend on it.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but mistakes.")]

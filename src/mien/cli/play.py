@@ -1,0 +1,97 @@
+"""``mien play``: a timeline from a file, on any face."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import options
+
+
+def play(
+    timeline: Annotated[
+        Path, typer.Argument(metavar="TIMELINE", help="A specification list .spec, a timeline .json, a table .csv.")
+    ],
+    out: options.OptionalFilm = None,
+    face: options.OtherFace = None,
+    commands: Annotated[bool, typer.Option("--commands", help="Print Parke's command list.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", metavar="FILE", help="Plot the curves over time: .png .svg .pdf")
+    ] = None,
+    values: options.Sets = None,
+    preset: options.Presets = None,
+    size: options.Size = None,
+    fps: options.Fps = None,
+    view: options.View = None,
+    position: options.From = None,
+    at: options.At = None,
+    fov: options.Fov = None,
+    shading: options.Shading = None,
+    subdivide: options.Subdivide = None,
+    background: options.Background = None,
+    threads: options.Threads = None,
+    quiet: options.Quiet = False,
+) -> None:
+    """Play a timeline on a face, list its commands, plot its curves.
+
+    \b
+    mien play nod.spec -o nod.mp4
+    mien play nod.spec --commands --plot nod.svg
+    mien play hello.json --face head:ada --view side -o hello.mp4
+    """
+    from dataclasses import replace
+
+    from mien import api
+    from mien.core import MienError
+    from mien.formats import DEFAULT_FPS, check_performance
+    from mien.formats.atomic import check_file
+    from mien.formats.rates import check_rate
+    from mien.formats.table import find_format
+
+    from . import settings
+    from .stages import Stages
+    from .writing import write
+
+    if out is None and plot is None and not commands:
+        raise MienError(f"{timeline}: nothing to do with it — give -o FILE, --commands or --plot FILE")
+    if fps is not None:
+        check_rate(fps)
+    settings.check_threads(threads)
+    if plot is not None:
+        find_format(plot, "plot")
+        check_file(plot)
+    if out is not None:
+        check_performance(out)
+    performance = api.play(timeline, face, fps=fps)
+    scene = settings.make_scene(
+        performance.scene,
+        size=size,
+        view=view,
+        position=position,
+        at=at,
+        fov=fov,
+        shading=shading,
+        subdivide=subdivide,
+        background=background,
+    )
+    pose = api.make_pose(performance.face, settings.parse_values(values), presets=preset or ())
+    performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))
+    rate = fps or performance.timeline.fps or DEFAULT_FPS
+    if out is not None:
+        check_performance(out, fps=rate, scene=scene)
+
+    if commands:
+        from mien.timeline import command_list, format_commands
+
+        for line in format_commands(command_list(performance.timeline, performance.face.parameters, rate)):
+            typer.echo(line)
+    stages = Stages(quiet)
+    if plot is not None:
+        from mien.formats.plot import plot_timeline
+
+        plot_timeline(performance.timeline, performance.face.parameters, plot)
+        stages.say(str(plot))
+    if out is not None:
+        write(performance, out, rate, threads, stages)

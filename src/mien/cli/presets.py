@@ -1,0 +1,34 @@
+"""``mien presets``: named expressions and palettes of a face."""
+
+from __future__ import annotations
+
+from . import options
+
+
+def presets(face: options.FaceName, as_json: options.Json = False) -> None:
+    """List the presets of a face, one a line, name first.
+
+    \b
+    mien presets head
+    mien presets head --json
+    """
+    from mien import api
+
+    from .listing import print_json, print_table
+
+    subject = api.load_face(face)
+    if as_json:
+        print_json(
+            {
+                "face": subject.name,
+                "presets": [
+                    {"name": preset.name, "kind": preset.kind, "doc": preset.doc, "values": dict(preset.values)}
+                    for preset in subject.presets.values()
+                ],
+            }
+        )
+        return
+    print_table(
+        ("preset", "kind", "what it is"),
+        [(preset.name, preset.kind, preset.doc) for preset in subject.presets.values()],
+    )

@@ -1,0 +1,81 @@
+"""``mien say``: a sentence in, a talking head out."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from . import options
+
+
+def say(
+    text: Annotated[
+        str, typer.Argument(metavar="TEXT|@FILE|-", help="What to say, a file to read from, or - for standard input.")
+    ],
+    out: options.Film,
+    face: options.Face = "head",
+    voice: Annotated[
+        str | None, typer.Option("--voice", metavar="NAME", help="Who speaks: a name from 'mien voices'.")
+    ] = None,
+    emotion: Annotated[
+        str | None, typer.Option("--emotion", metavar="NAME", help="An expression that shows through: a preset.")
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of blinks, small movements and brows.")] = 0,
+    values: options.Sets = None,
+    preset: options.Presets = None,
+    size: options.Size = None,
+    fps: options.Fps = None,
+    view: options.View = None,
+    position: options.From = None,
+    at: options.At = None,
+    fov: options.Fov = None,
+    shading: options.Shading = None,
+    subdivide: options.Subdivide = None,
+    background: options.Background = None,
+    threads: options.Threads = None,
+    quiet: options.Quiet = False,
+) -> None:
+    """Let a face say something, as a film with its voice.
+
+    \b
+    mien say "How happy is the little stone" -o stone.mp4
+    mien say @poem.txt --face head:ada --view front --fps 30 -o poem.mp4
+    echo Hello | mien say - --emotion smile -o hello.json
+    """
+    from mien import api
+    from mien.formats import DEFAULT_FPS, check_performance
+
+    from . import settings
+    from .stages import Stages
+    from .writing import write
+
+    rate = DEFAULT_FPS if fps is None else fps
+    scene = settings.make_scene(
+        api.default_scene(),
+        size=size,
+        view=view,
+        position=position,
+        at=at,
+        fov=fov,
+        shading=shading,
+        subdivide=subdivide,
+        background=background,
+    )
+    settings.check_threads(threads)
+    # Everything that can be wrong is looked at before the first long step.
+    check_performance(out, fps=rate, scene=scene)
+    subject = api.load_face(face)
+    pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
+    api.find_voice(voice)
+    api.check_emotion(subject, emotion)
+    words = settings.read_text(text)
+
+    stages = Stages(quiet)
+    with stages.progress("speaking") as report:
+        speech = api.speak(words, voice, report=lambda done, total, doing: report(done, total))
+    if speech.skipped:
+        stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
+    with stages.stage("moving the face"):
+        performance = api.perform(speech, subject, seed=seed, emotion=emotion, pose=pose, scene=scene)
+    write(performance, out, rate, threads, stages)

@@ -1,0 +1,151 @@
+"""From the texts of options to values, poses and scenes."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from mien.core import MienError, RangeError, Scene, UnknownNameError
+from mien.core.scene import VIEWS, Rgba, Vector
+
+THREADS_HIGH = 256
+
+
+def parse_values(texts: Sequence[str] | None) -> dict[str, float]:
+    """Values by name, from texts such as ``jaw.rotation=8``.
+
+    Raises:
+        MienError: a text is not of that form.
+    """
+    values = {}
+    for text in texts or ():
+        name, equals, number = text.partition("=")
+        if not (name and equals):
+            raise MienError(f"--set {text}: want NAME=VALUE, as in --set jaw.rotation=8")
+        values[name.strip()] = _number(number, f"--set {text}")
+    return values
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """(width, height), from ``1024`` or ``1280x720``."""
+    sides = text.lower().split("x")
+    if len(sides) not in (1, 2) or not all(side.strip().isdecimal() for side in sides):
+        raise MienError(f"--size {text}: want one side or two, as in --size 1024 or --size 1280x720")
+    return int(sides[0]), int(sides[-1])
+
+
+def parse_vector(text: str, option: str) -> Vector:
+    """(x, y, z), from ``0.2,0,1.1``."""
+    numbers = text.split(",")
+    if len(numbers) != 3:
+        raise MienError(f"{option} {text}: want three numbers, as in {option} 0.2,0,1.1")
+    x, y, z = (_number(number, f"{option} {text}") for number in numbers)
+    return x, y, z
+
+
+def parse_background(text: str) -> tuple[Rgba, Rgba]:
+    """Linear colours at the bottom and at the top, from ``white``, ``#336699``, ``transparent`` or two with a colon."""
+    colors = text.split(":")
+    if len(colors) > 2:
+        raise MienError(f"--background {text}: want one colour, or two as bottom:top")
+    return _color(colors[0]), _color(colors[-1])
+
+
+def make_scene(
+    scene: Scene,
+    *,
+    size: str | None = None,
+    view: str | None = None,
+    position: str | None = None,
+    at: str | None = None,
+    fov: float | None = None,
+    shading: str | None = None,
+    subdivide: int | None = None,
+    background: str | None = None,
+) -> Scene:
+    """The scene with what the options say; None leaves it as it is.
+
+    Raises:
+        MienError: an option cannot be understood, is unknown or out of range.
+    """
+    if view is not None and position is not None:
+        raise MienError(f"--view {view} and --from {position} both say where the camera stands — leave one out")
+    if view is not None and view not in VIEWS:
+        raise UnknownNameError("view", view, VIEWS)
+    changes: dict[str, object] = {
+        "size_px": None if size is None else parse_size(size),
+        "at": None if at is None else parse_vector(at, "--at"),
+        "position": None if position is None else parse_vector(position, "--from"),
+        "fov_deg": fov,
+        "shading": shading,
+        "subdivide": subdivide,
+        "background": None if background is None else parse_background(background),
+    }
+    scene = replace(scene, **{key: value for key, value in changes.items() if value is not None})  # type: ignore[arg-type]
+    return scene if view is None else scene.seen(view)
+
+
+def check_threads(threads: int | None) -> None:
+    """Nothing, when so many threads can be had."""
+    if threads is not None and not 1 <= threads <= THREADS_HIGH:
+        raise RangeError(f"--threads {threads} is out of range — it goes from 1 to {THREADS_HIGH}")
+
+
+def read_text(text: str) -> str:
+    """What to say: the text itself, of ``@FILE`` what is in the file, of ``-`` what comes on standard input.
+
+    Raises:
+        MienError: the file cannot be read, is not UTF-8, or there is nothing to say.
+    """
+    place = "the text"
+    try:
+        if text == "-":
+            place, text = "standard input", sys.stdin.buffer.read().decode("utf-8-sig")
+        elif text.startswith("@"):
+            place = text[1:]
+            text = Path(place).read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise MienError(f"{place}: is not UTF-8 text (byte {error.start})") from None
+    except OSError as error:
+        raise MienError(f"{place}: cannot be read ({error.strerror})") from error
+    if not text.strip():
+        raise MienError(f'{place} is empty — give something to say, as in mien say "Hello there." -o hello.mp4')
+    return text
+
+
+def _number(text: str, place: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise MienError(f"{place}: {text!r} is not a number") from None
+
+
+def _color(text: str) -> Rgba:
+    from PIL import ImageColor
+
+    if text.strip().lower() == "transparent":
+        return 0.0, 0.0, 0.0, 0.0
+    try:
+        red, green, blue, alpha = ImageColor.getcolor(text.strip(), "RGBA")  # type: ignore[misc]
+    except ValueError:
+        raise _unknown_color(text) from None
+    return _linear(red), _linear(green), _linear(blue), round(alpha / 255.0, 6)
+
+
+def _unknown_color(text: str) -> MienError:
+    from PIL import ImageColor
+
+    if text.startswith("#"):
+        return MienError(f"--background {text}: want # and 3, 6 or 8 hexadecimal digits, as in #336699")
+    return UnknownNameError("colour", text, [*ImageColor.colormap, "transparent"])
+
+
+def _linear(value: int) -> float:
+    """Linear light 0..1 of an sRGB byte, rounded so that no C library's last place shows.
+
+    Source: IEC 61966-2-1.
+    """
+    share = value / 255.0
+    return round(share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4, 6)

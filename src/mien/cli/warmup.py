@@ -1,0 +1,20 @@
+"""``mien warmup``: what would otherwise be done at the first use."""
+
+from __future__ import annotations
+
+from . import options
+
+
+def warmup(quiet: options.Quiet = False) -> None:
+    """Compile now what the first picture would wait for.
+
+    \b
+    mien warmup
+    """
+    from mien.render import warmup
+
+    from .stages import Stages
+
+    stages = Stages(quiet)
+    warmup(stages.say)
+    stages.say(f"ready in {stages.elapsed_s:.1f} s")
