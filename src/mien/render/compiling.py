@@ -63,17 +63,17 @@ def can_write(folder: Path) -> bool:
         return False
 
 
-def load_spans() -> ModuleType:
-    """The compiled rasteriser's module; the first call imports Numba, and reports when it must compile."""
+def load() -> tuple[ModuleType, ModuleType]:
+    """The compiled modules ``lighting`` and ``spans``; the first call imports Numba, and reports if it must compile."""
     with _lock:
         if not _loaded:
-            _loaded.append(_import_spans())
-            if _report and is_cold(_loaded[0]):
+            _loaded.extend(_import_compiled())
+            if _report and any(is_cold(module) for module in _loaded):
                 _report[0](MESSAGE)
-        return _loaded[0]
+        return _loaded[0], _loaded[1]
 
 
-def _import_spans() -> ModuleType:
+def _import_compiled() -> list[ModuleType]:
     from numba.core import config as numba_config
 
     config: Any = numba_config
@@ -82,7 +82,7 @@ def _import_spans() -> ModuleType:
     # Numba looks at this when a function is decorated; what others compile later is none of our business.
     config.CACHE_DIR = str(folder)
     try:
-        return import_module("mien.render.spans")
+        return [import_module(f"mien.render.{name}") for name in ("lighting", "spans")]
     finally:
         config.CACHE_DIR = before
 

@@ -36,6 +36,7 @@ class Plan:
         gloss: (N + M,) strength of its highlight.
         powers: sharpness of highlights, with the numbers of the glossy shades that have it.
         two_sided: (F,) whether a polygon's back is drawn.
+        columns: the same a node, for compiled code: vertex, polygon, back shade or -1, lit, round, gloss, power.
     """
 
     by_size: tuple[tuple[Ints, Ints], ...]
@@ -50,6 +51,7 @@ class Plan:
     gloss: Floats
     powers: tuple[tuple[int, Ints], ...]
     two_sided: NDArray[np.bool_]
+    columns: tuple[NDArray[np.generic], ...]
 
 
 @lru_cache(maxsize=16)
@@ -94,12 +96,14 @@ def plan_shading(topology: Topology, flat: bool) -> Plan:
     power = np.array([part.material.gloss_power for part in topology.parts], dtype=np.int64)[shade_material]
     lit = np.array([part.material.lit for part in topology.parts], dtype=bool)[shade_material]
     glossy = (gloss > 0.0) & lit
+    behind = np.where(sided[material], back_node, -1)
+    polygon, is_round = _join(polygons), own[material] & (vertex >= 0)
     return Plan(
         by_size=_group_by_size(topology),
         vertex=vertex,
-        polygon=_join(polygons),
+        polygon=polygon,
         normal_sum=total,
-        round=np.flatnonzero(own[material] & (vertex >= 0)),
+        round=np.flatnonzero(is_round),
         back=back,
         corner_front=corner_node,
         corner_back=back_node[corner_node],
@@ -107,6 +111,7 @@ def plan_shading(topology: Topology, flat: bool) -> Plan:
         gloss=gloss,
         powers=tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy])),
         two_sided=sided[topology.part_of_polygon],
+        columns=(vertex, polygon, behind, lit[:count], is_round, gloss[:count], power[:count]),
     )
 
 

@@ -13,9 +13,11 @@ from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, U
 
 from . import reference
 from .camera import Camera
-from .compiling import Report, load_spans, on_compile, timed
+from .compiling import Report, load, on_compile, timed
 from .drawing import draw_drawing
 from .pixels import background_rows, resolve, srgb_tables, straight
+from .plan import Plan
+from .shade import Shades, own_normals
 from .triangles import Triangles, make_triangles
 
 Picture = NDArray[np.uint8]
@@ -79,21 +81,45 @@ class Renderer:
         """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is."""
         if not (np.isfinite(mesh.points).all() and np.isfinite(mesh.colors).all()):
             raise MienError("a mesh to be drawn has a point or a colour that is not a finite number")
-        triangles = make_triangles(mesh, self.scene, self._camera)
         if self._rasteriser == "reference":
+            triangles = make_triangles(mesh, self.scene, self._camera)
             samples, covered = reference.rasterise(triangles, self._camera.width, self._camera.height)
             return resolve(samples, covered, self._behind, self._oversampling)
-        return self._rasterise(triangles)
+        return self._rasterise(make_triangles(mesh, self.scene, self._camera, self._light))
+
+    def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
+        """What ``shade.light_mesh`` says, by compiled code on all threads."""
+        lighting, _ = load()
+        topology = mesh.topology
+        polygons, nodes, shades = topology.polygon_count, len(plan.vertex), len(plan.lit)
+        normals, facing = np.empty((polygons, 3)), np.empty(polygons, dtype=np.bool_)
+        places = (points, topology.corners, topology.starts)
+        viewer = np.array([*scene.position, scene.gloss])
+        self._share(lighting.sum_normals, [(*places, a, b, normals, facing, viewer) for a, b in self._parts(polygons)])
+        own = own_normals(mesh) if len(plan.round) else normals
+        lamps = np.array([[*lamp.position, *lamp.color, lamp.wrap] for lamp in scene.lamps])
+        settings = (own, lamps, np.array(scene.ambient), (viewer, scene.cosine_power), plan.columns)
+        sums = (plan.normal_sum.starts, plan.normal_sum.columns)
+        diffuse, highlight = np.empty((shades, 3)), np.empty((shades, 3))
+        self._share(
+            lighting.light_nodes,
+            [(*places, normals, *settings, sums, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
+        )
+        return Shades(diffuse, highlight, facing)
+
+    def _parts(self, count: int) -> list[tuple[int, int]]:
+        """0:count in as many runs as there are threads."""
+        ends = [count * k // self.threads for k in range(self.threads + 1)]
+        return list(zip(ends[:-1], ends[1:], strict=True))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
-        spans = load_spans()
+        _, spans = load()
         width, height = self.scene.size_px
         raster_height, n = self._camera.height, self._oversampling
         count = len(triangles.corners)
         edges, planes = np.empty((count, 10), dtype=np.int64), np.empty((count, 5, 3))
         soup = (triangles.places, triangles.inverse, triangles.corners, triangles.colors, triangles.color_of)
-        shares = [count * k // self.threads for k in range(self.threads + 1)]
-        self._share(spans.set_up, [(*soup, shares[k], shares[k + 1], edges, planes) for k in range(self.threads)])
+        self._share(spans.set_up, [(*soup, a, b, edges, planes) for a, b in self._parts(count)])
         counts = np.zeros(-(-raster_height // BAND_ROWS) + 1, dtype=np.int64)
         spans.count_bands(edges, raster_height, BAND_ROWS, counts)
         members = np.empty(int(counts[-1]), dtype=np.int64)

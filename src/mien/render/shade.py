@@ -61,10 +61,9 @@ def light_mesh(mesh: Mesh, points: Floats, plan: Plan, scene: Scene) -> Shades:
     directions = _columns(plan.normal_sum.apply(normals))
     places = _node_places(points, plan, mesh)
     if len(plan.round):
-        if mesh.normals is None:
-            raise MienError("a part of this mesh is round, but the mesh brings no normals — give Mesh(normals=...)")
+        own = own_normals(mesh)
         for k in range(3):
-            directions[k][plan.round] = mesh.normals[plan.vertex[plan.round], k]
+            directions[k][plan.round] = own[plan.vertex[plan.round], k]
     directions = _normalised(directions)
     if len(plan.back):
         directions = _three(np.concatenate([d, -d[plan.back]]) for d in directions)
@@ -72,6 +71,13 @@ def light_mesh(mesh: Mesh, points: Floats, plan: Plan, scene: Scene) -> Shades:
     diffuse, highlight = light_places(places, directions, plan, scene)
     diffuse[~plan.lit] = 1.0
     return Shades(diffuse, highlight, faces_viewer)
+
+
+def own_normals(mesh: Mesh) -> Floats:
+    """(V, 3) normals of a mesh with round parts."""
+    if mesh.normals is None:
+        raise MienError("a part of this mesh is round, but the mesh brings no normals — give Mesh(normals=...)")
+    return mesh.normals
 
 
 def light_places(places: Columns, normals: Columns, plan: Plan, scene: Scene) -> tuple[Floats, Floats]:

@@ -1,9 +1,7 @@
 """The fast rasteriser, compiled by Numba: triangles into horizontal bands, spans in each band, pixels at its end.
 
 A band has its own depth and colour rows, small enough for the processor's cache, and bands know nothing of one
-another: any number of threads may share them out and the picture stays the same. No ``fastmath``: it would let
-the processor decide the last bit. Importing this module costs Numba's start, so that only ``renderer`` does it,
-when first drawing.
+another: any number of threads may share them out and the picture stays the same.
 """
 
 # Numba finds the types of arguments by itself, so that the functions below name none.
@@ -11,19 +9,12 @@ when first drawing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-import numba
 import numpy as np
 
-
-def _compiled(function: Callable[..., Any]) -> Any:
-    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=False)(function)
+from .kernels import compiled
 
 
-
-@_compiled
+@compiled
 def set_up(places, inverse, corners, colors, color_of, first, last, edges, planes):
     """Fill for triangles first:last: ``edges`` (T, 10) int64 for the spans, ``planes`` (T, 5, 3) float64.
 
@@ -63,7 +54,7 @@ def set_up(places, inverse, corners, colors, color_of, first, last, edges, plane
         edges[t, 7], edges[t, 8], edges[t, 9] = iby, icx, icy
 
 
-@_compiled
+@compiled
 def count_bands(edges, height, band_rows, counts):
     """Triangles in each band, as places in one list: band b has entries ``counts[b]:counts[b + 1]``."""
     counts[:] = 0
@@ -76,7 +67,7 @@ def count_bands(edges, height, band_rows, counts):
         counts[b + 1] += counts[b]
 
 
-@_compiled
+@compiled
 def sort_bands(edges, height, band_rows, counts, members):
     """Fill the list that ``count_bands`` measured, triangles in their order."""
     following = counts.copy()
@@ -88,7 +79,7 @@ def sort_bands(edges, height, band_rows, counts, members):
                 following[b] += 1
 
 
-@_compiled
+@compiled
 def _first_centre(numerator, denominator):
     # Both are whole numbers below 2^53, and the quotient is far from any whole number that it does not equal:
     # rounding cannot carry it across, so this is exact.
@@ -97,7 +88,7 @@ def _first_centre(numerator, denominator):
     return whole + 1 if quotient > whole else whole
 
 
-@_compiled
+@compiled
 def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, reach):
     """Draw rows top:end of triangle t; ``reach`` (rows, 2) keeps the columns that were touched.
 
@@ -146,14 +137,14 @@ def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, r
                 blue[i] = (b0 + db * step) * scale
 
 
-@_compiled
+@compiled
 def _encode(value, low, borders):
     value = min(max(value, np.float32(0.0)), np.float32(1.0))
     code = low[int(value * np.float32(16384.0))]
     return np.uint32(code) + np.uint32(value >= borders[code])
 
 
-@_compiled
+@compiled
 def _pack(red, green, blue, alpha, low, borders):
     """One pixel, its bytes red, green, blue, alpha, of linear colour multiplied by alpha."""
     one = np.float32(1.0)
@@ -166,7 +157,7 @@ def _pack(red, green, blue, alpha, low, borders):
     return low_half | (_encode(blue, low, borders) << np.uint32(16)) | (opacity << np.uint32(24))
 
 
-@_compiled
+@compiled
 def _resolve_single(depth, red, green, blue, behind, plain, low, borders, out):
     """Pixels of a row of samples, one each."""
     one = np.float32(1.0)
@@ -177,7 +168,7 @@ def _resolve_single(depth, red, green, blue, behind, plain, low, borders, out):
             out[x] = plain
 
 
-@_compiled
+@compiled
 def _average(upper, lower, x, u0, u1, l0, l1, behind):
     """Mean of four samples; those not drawn are what is behind."""
     left = upper[2 * x] if u0 else behind
@@ -187,7 +178,7 @@ def _average(upper, lower, x, u0, u1, l0, l1, behind):
     return ((left + right) + (left_below + right_below)) * np.float32(0.25)
 
 
-@_compiled
+@compiled
 def _resolve_four(depth, red, green, blue, behind, plain, low, borders, out):
     """Pixels of two rows of samples, four each."""
     nothing, one = np.float32(0.0), np.float32(1.0)
@@ -202,11 +193,13 @@ def _resolve_four(depth, red, green, blue, behind, plain, low, borders, out):
         g = _average(green[0], green[1], x, u0, u1, l0, l1, behind[1])
         b = _average(blue[0], blue[1], x, u0, u1, l0, l1, behind[2])
         a = behind[3]
-        alpha = (((one if u0 else a) + (one if u1 else a)) + ((one if l0 else a) + (one if l1 else a))) * np.float32(0.25)
+        alpha = (((one if u0 else a) + (one if u1 else a)) + ((one if l0 else a) + (one if l1 else a))) * np.float32(
+            0.25
+        )
         out[x] = _pack(r, g, b, alpha, low, borders)
 
 
-@_compiled
+@compiled
 def _resolve_row(depth, red, green, blue, row, n, reach, behind, plain, low, borders, out):
     """One row of pixels out of n rows of samples from ``row`` on."""
     first, last = reach[row, 0], reach[row, 1]
@@ -243,7 +236,7 @@ def _resolve_row(depth, red, green, blue, row, n, reach, behind, plain, low, bor
         )
 
 
-@_compiled
+@compiled
 def draw_bands(
     start, stride, band_rows, n, edges, planes, counts, members, rows, reach, behind, plain, low, borders, out
 ):
@@ -257,9 +250,7 @@ def draw_bands(
         reach[:, 0] = width
         reach[:, 1] = 0
         for m in range(counts[b], counts[b + 1]):
-            _draw_triangle(
-                edges, planes, members[m], top, end, width, flat[0], flat[1], flat[2], flat[3], reach
-            )
+            _draw_triangle(edges, planes, members[m], top, end, width, flat[0], flat[1], flat[2], flat[3], reach)
         for y in range(top // n, end // n):
             row = y * n - top
             _resolve_row(depth, red, green, blue, row, n, reach, behind[y], plain[y], low, borders, out[y])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from .wire import edge_ribbons, paper_colors
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Ints32 = NDArray[np.int32]
+Light = Callable[[Mesh, Floats, Plan, Scene], Shades]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,14 +51,14 @@ class Triangles:
         )
 
 
-def make_triangles(mesh: Mesh, scene: Scene, camera: Camera) -> Triangles:
-    """The mesh, lit, projected, clipped, without what turns its back."""
+def make_triangles(mesh: Mesh, scene: Scene, camera: Camera, light: Light = light_mesh) -> Triangles:
+    """The mesh, lit by ``light``, projected, clipped, without what turns its back."""
     topology = mesh.topology
     points = exact.round_points(mesh.points)
     plan = plan_shading(topology, scene.shading != "smooth")
     if scene.shading == "wire":
         mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
-    shades = light_mesh(mesh, points, plan, scene)
+    shades = light(mesh, points, plan, scene)
     view = camera.view(points)
     codes = outcodes(camera, view)
     places, inverse = camera.project(view)

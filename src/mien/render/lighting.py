@@ -1,0 +1,142 @@
+"""The light of ``shade``, compiled: the same formulas in the same order, so that every number is the same."""
+
+# Numba finds the types of arguments by itself, so that the functions below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
+from __future__ import annotations
+
+import numpy as np
+
+from .kernels import compiled
+
+_TINY = 2.2250738585072014e-308
+
+
+@compiled
+def sum_normals(points, corners, starts, first, last, normals, facing, viewer):
+    """Fill ``normals`` (F, 3), twice a polygon's area long, and ``facing`` (F,) for polygons first:last."""
+    for f in range(first, last):
+        start, size = starts[f], starts[f + 1] - starts[f]
+        a, b = corners[start], corners[start + 1]
+        nx, ny, nz = 0.0, 0.0, 0.0
+        if size == 4:
+            c, d = corners[start + 2], corners[start + 3]
+            ux, uy, uz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+            wx, wy, wz = points[d, 0] - points[b, 0], points[d, 1] - points[b, 1], points[d, 2] - points[b, 2]
+            nx, ny, nz = uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx
+        else:
+            for k in range(1, size - 1):
+                c, d = corners[start + k], corners[start + k + 1]
+                ux, uy, uz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+                wx, wy, wz = points[d, 0] - points[a, 0], points[d, 1] - points[a, 1], points[d, 2] - points[a, 2]
+                nx += uy * wz - uz * wy
+                ny += uz * wx - ux * wz
+                nz += ux * wy - uy * wx
+        normals[f, 0], normals[f, 1], normals[f, 2] = nx, ny, nz
+        tx, ty, tz = viewer[0] - points[a, 0], viewer[1] - points[a, 1], viewer[2] - points[a, 2]
+        facing[f] = (tx * nx + ty * ny) + tz * nz > 0.0
+
+
+@compiled
+def _scale(x, y, z):
+    return 1.0 / np.sqrt(max((x * x + y * y) + z * z, _TINY))
+
+
+@compiled
+def _whole_power(base, power):
+    result = 1.0
+    while power > 0:
+        if power & 1:
+            result *= base
+        power >>= 1
+        base *= base
+    return result
+
+
+@compiled
+def light_nodes(
+    points, corners, starts, normals, own_normals, lamps, ambient, scene, nodes, sums, first, last, diffuse, highlight
+):
+    """Fill ``diffuse`` and ``highlight`` (N + M, 3) for nodes first:last and their backs.
+
+    Args:
+        points: (V, 3) m, of the polygons with ``corners`` and ``starts``.
+        corners: as in the topology.
+        starts: as in the topology.
+        normals: (F, 3) from ``sum_normals``.
+        own_normals: (V, 3) normals of round parts.
+        lamps: (L, 7) place, colour, wrap.
+        ambient: (2, 3) light from below and from above.
+        scene: (4,) viewer's place and strength of all highlights; and the cosine power.
+        nodes: columns of the plan: vertex, polygon, back (or -1), lit, round, gloss, gloss power.
+        sums: columns of the plan's ``normal_sum``: starts, columns.
+        first: first node.
+        last: behind the last node.
+        diffuse: filled.
+        highlight: filled.
+    """
+    vertex, polygon, back, lit, own, gloss, power = nodes
+    sum_starts, sum_columns = sums
+    viewer, cosine_power = scene
+    for n in range(first, last):
+        x, y, z = 0.0, 0.0, 0.0
+        nx, ny, nz = 0.0, 0.0, 0.0
+        v = vertex[n]
+        if v >= 0:
+            x, y, z = points[v, 0], points[v, 1], points[v, 2]
+        else:
+            start, end = starts[polygon[n]], starts[polygon[n] + 1]
+            x, y, z = points[corners[start], 0], points[corners[start], 1], points[corners[start], 2]
+            for c in range(start + 1, end):
+                x += points[corners[c], 0]
+                y += points[corners[c], 1]
+                z += points[corners[c], 2]
+            size = float(end - start)
+            x, y, z = x / size, y / size, z / size
+        if own[n]:
+            nx, ny, nz = own_normals[v, 0], own_normals[v, 1], own_normals[v, 2]
+        else:
+            for k in range(sum_starts[n], sum_starts[n + 1]):
+                f = sum_columns[k]
+                nx += normals[f, 0]
+                ny += normals[f, 1]
+                nz += normals[f, 2]
+        scale = _scale(nx, ny, nz)
+        nx, ny, nz = nx * scale, ny * scale, nz * scale
+        ex, ey, ez = viewer[0] - x, viewer[1] - y, viewer[2] - z
+        scale = _scale(ex, ey, ez)
+        ex, ey, ez = ex * scale, ey * scale, ez * scale
+        for side in range(2):
+            target = n
+            if side == 1:
+                target = back[n]
+                if target < 0:
+                    break
+                nx, ny, nz = -nx, -ny, -nz
+            strength = gloss[n] * viewer[3]
+            up = (ny + 1.0) * 0.5
+            dr = ambient[0, 0] + (ambient[1, 0] - ambient[0, 0]) * up
+            dg = ambient[0, 1] + (ambient[1, 1] - ambient[0, 1]) * up
+            db = ambient[0, 2] + (ambient[1, 2] - ambient[0, 2]) * up
+            hr, hg, hb = 0.0, 0.0, 0.0
+            for i in range(len(lamps)):
+                lx, ly, lz = lamps[i, 0] - x, lamps[i, 1] - y, lamps[i, 2] - z
+                scale = _scale(lx, ly, lz)
+                lx, ly, lz = lx * scale, ly * scale, lz * scale
+                cosine = (nx * lx + ny * ly) + nz * lz
+                amount = _whole_power(max((cosine + lamps[i, 6]) / (1.0 + lamps[i, 6]), 0.0), cosine_power)
+                dr += lamps[i, 3] * amount
+                dg += lamps[i, 4] * amount
+                db += lamps[i, 5] * amount
+                if strength > 0.0 and cosine > 0.0:
+                    mx, my, mz = lx + ex, ly + ey, lz + ez
+                    scale = _scale(mx, my, mz)
+                    shine = (nx * (mx * scale) + ny * (my * scale)) + nz * (mz * scale)
+                    shine = _whole_power(max(shine, 0.0), power[n]) * strength
+                    hr += lamps[i, 3] * shine
+                    hg += lamps[i, 4] * shine
+                    hb += lamps[i, 5] * shine
+            if not lit[n]:
+                dr, dg, db, hr, hg, hb = 1.0, 1.0, 1.0, 0.0, 0.0, 0.0
+            diffuse[target, 0], diffuse[target, 1], diffuse[target, 2] = dr, dg, db
+            highlight[target, 0], highlight[target, 1], highlight[target, 2] = hr, hg, hb
