@@ -33,9 +33,10 @@ MOST_DOTS = 300
 
 _INK, _CURVE, _DOT, _FAINT, _VOICE = "#1a1a1a", "#1d3f66", "#a8321e", "#8c8c8c", "#f4f1ea"
 _SAMPLES_A_FRAME, _MOST_SAMPLES, _CHUNK = 8, 40_000, 4096
-_INCHES_A_SECOND, _LEAST_WIDTH, _MOST_WIDTH = 0.72, 7.6, 60.0
+_INCHES_A_SECOND, _LEAST_WIDTH, _MOST_WIDTH = 1.0, 7.6, 60.0
 _STRIP, _GAP, _CUES, _TOP, _TITLE, _BOTTOM, _LEFT, _RIGHT = 0.78, 0.34, 0.22, 0.68, 0.22, 0.46, 0.66, 0.22  # inches
 _MOST_STRIPS = 120
+_BREATH_S = 0.05
 _TICK_STEPS = (1, 2, 5, 10, 12, 24, 48, 120, 240, 480, 1200, 2400, 4800, 12000, 24000, 48000, 120000)
 
 _STYLE: dict[str, Any] = {
@@ -264,10 +265,20 @@ def _name_strip(axes: Axes, strip: Strip) -> None:
     axes.tick_params(axis="y", labelsize=6.5)
     for side in ("top", "right", "bottom"):
         axes.spines[side].set_visible(False)
-    axes.set_title(strip.label, loc="left", fontsize=8, pad=3)
-    bounds = f"{row.low:g} to {row.high:g}".replace("-", "−")
+    title = axes.set_title(strip.label, loc="left", fontsize=8, pad=3, parse_math=False)
     unit = f" {row.unit}" if row.unit else ""
-    axes.set_title(f"{bounds}{unit}", loc="right", fontsize=6.5, pad=3, color=_FAINT, style="italic")
+    axes.annotate(
+        f"{row.low:g} to {row.high:g}{unit}".replace("-", "−"),
+        xy=(1.0, 0.0),
+        xycoords=title,
+        xytext=(8.0, 0.6),
+        textcoords="offset points",
+        fontsize=6.5,
+        color=_FAINT,
+        style="italic",
+        va="bottom",
+        annotation_clip=False,
+    )
 
 
 def _draw_cues(axes: Axes, cues: Sequence[Cue], inches_a_second: float) -> None:
@@ -295,7 +306,7 @@ def _draw_clock(axes: Axes, ticks: Floats, labels: Sequence[str], label: str, si
     axes.xaxis.set_label_position("top" if side == "top" else "bottom")
     axes.set_xticks(ticks, labels)
     axes.tick_params(axis="x", labelsize=6.5)
-    axes.set_xlabel(label, fontsize=7, style="italic", color=_FAINT, labelpad=2.0)
+    axes.set_xlabel(label, fontsize=7, style="italic", color=_FAINT, labelpad=2.0, loc="left")
 
 
 def _view(strip: Strip) -> tuple[float, float]:
@@ -312,10 +323,10 @@ def _view(strip: Strip) -> tuple[float, float]:
 
 
 def _spans(cues: Iterable[Cue]) -> Iterator[tuple[float, float]]:
-    """Stretches in which there are cues, joined where they touch."""
+    """Stretches in which there are cues, joined where hardly anything lies between them."""
     start = end = -math.inf
     for cue in sorted(cues):
-        if cue.start_s > end + 1e-6:
+        if cue.start_s > end + _BREATH_S:
             if end > start:
                 yield start, end
             start = cue.start_s
