@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from types import TracebackType
 from typing import Literal
 
@@ -110,7 +111,7 @@ class Renderer:
     def _parts(self, count: int) -> list[tuple[int, int]]:
         """0:count in as many runs as there are threads."""
         ends = [count * k // self.threads for k in range(self.threads + 1)]
-        return list(zip(ends[:-1], ends[1:], strict=True))
+        return list(pairwise(ends))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
         _, spans = load()
@@ -140,7 +141,8 @@ class Renderer:
                     n,
                     *frame,
                     self._rows[k],
-                    np.empty((BAND_ROWS, 2), dtype=np.int64),
+                    np.empty((4, width), dtype=np.float32),
+                    np.empty((4, width), dtype=np.uint8),
                     self._behind,
                     plain,
                     *srgb_tables(),

@@ -138,119 +138,109 @@ def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, r
 
 
 @compiled
-def _encode(value, low, borders):
-    value = min(max(value, np.float32(0.0)), np.float32(1.0))
-    code = low[int(value * np.float32(16384.0))]
-    return np.uint32(code) + np.uint32(value >= borders[code])
+def _show_behind(depth, color, behind):
+    for x in range(len(color)):
+        color[x] = color[x] if depth[x] > np.float32(0.0) else behind
 
 
 @compiled
-def _pack(red, green, blue, alpha, low, borders):
-    """One pixel, its bytes red, green, blue, alpha, of linear colour multiplied by alpha."""
-    one = np.float32(1.0)
-    if alpha <= np.float32(0.0):
-        return np.uint32(0)
-    if alpha != one:
-        red, green, blue = red / alpha, green / alpha, blue / alpha
-    opacity = np.uint32(np.int32(min(alpha, one) * np.float32(255.0) + np.float32(0.5)))
-    low_half = _encode(red, low, borders) | (_encode(green, low, borders) << np.uint32(8))
-    return low_half | (_encode(blue, low, borders) << np.uint32(16)) | (opacity << np.uint32(24))
+def _average(upper, lower, out):
+    for x in range(np.uint64(len(out))):
+        i = np.uint64(2) * x
+        j = i + np.uint64(1)
+        out[x] = ((upper[i] + upper[j]) + (lower[i] + lower[j])) * np.float32(0.25)
 
 
 @compiled
-def _resolve_single(depth, red, green, blue, behind, plain, low, borders, out):
-    """Pixels of a row of samples, one each."""
-    one = np.float32(1.0)
-    for x in range(len(out)):
-        if depth[x] > np.float32(0.0):
-            out[x] = _pack(red[x], green[x], blue[x], one, low, borders)
+def _encode(linear, low, borders, codes):
+    for x in range(np.uint64(len(codes))):
+        value = min(max(linear[x], np.float32(0.0)), np.float32(1.0))
+        code = low[np.uint64(np.int32(value * np.float32(16384.0)))]
+        codes[x] = code + (value >= borders[np.uint64(code)])
+
+
+@compiled
+def _divide(color, alpha):
+    for x in range(len(color)):
+        color[x] = color[x] / alpha[x] if alpha[x] > np.float32(0.0) else np.float32(0.0)
+
+
+@compiled
+def _encode_alpha(alpha, codes):
+    for x in range(len(codes)):
+        value = min(alpha[x], np.float32(1.0)) * np.float32(255.0) + np.float32(0.5)
+        codes[x] = np.uint8(np.int32(value))
+
+
+@compiled
+def _pack(codes, out):
+    red, green, blue, alpha = codes[0], codes[1], codes[2], codes[3]
+    for x in range(np.uint64(len(out))):
+        low_half = np.uint32(red[x]) | (np.uint32(green[x]) << np.uint32(8))
+        out[x] = low_half | (np.uint32(blue[x]) << np.uint32(16)) | (np.uint32(alpha[x]) << np.uint32(24))
+
+
+@compiled
+def _resolve_row(rows, row, n, first, last, behind, low, borders, means, codes, out):
+    """Pixels first:last of one row, out of the n rows of samples from ``row`` on.
+
+    One short loop after the other over the whole row, each of which becomes vector code, takes a quarter of the time
+    of one loop that does everything for a pixel.
+    """
+    one, count = np.float32(1.0), last - first
+    opaque = behind[3] == one
+    for v in range(3 if opaque else 4):
+        # The depth is no longer needed after the three colours: its rows then hold the alpha.
+        plane = rows[(v + 1) % 4]
+        for k in range(row, row + n):
+            part = plane[k, first * n : last * n]
+            if v < 3:
+                _show_behind(rows[0, k, first * n : last * n], part, behind[v])
+            else:
+                for x in range(len(part)):
+                    part[x] = one if part[x] > np.float32(0.0) else behind[3]
+        if n == 2:
+            _average(plane[row, first * 2 : last * 2], plane[row + 1, first * 2 : last * 2], means[v, :count])
         else:
-            out[x] = plain
-
-
-@compiled
-def _average(upper, lower, x, u0, u1, l0, l1, behind):
-    """Mean of four samples; those not drawn are what is behind."""
-    left = upper[2 * x] if u0 else behind
-    right = upper[2 * x + 1] if u1 else behind
-    left_below = lower[2 * x] if l0 else behind
-    right_below = lower[2 * x + 1] if l1 else behind
-    return ((left + right) + (left_below + right_below)) * np.float32(0.25)
-
-
-@compiled
-def _resolve_four(depth, red, green, blue, behind, plain, low, borders, out):
-    """Pixels of two rows of samples, four each."""
-    nothing, one = np.float32(0.0), np.float32(1.0)
-    upper, lower = depth[0], depth[1]
-    for x in range(len(out)):
-        u0, u1 = upper[2 * x] > nothing, upper[2 * x + 1] > nothing
-        l0, l1 = lower[2 * x] > nothing, lower[2 * x + 1] > nothing
-        if not (u0 or u1 or l0 or l1):
-            out[x] = plain
-            continue
-        r = _average(red[0], red[1], x, u0, u1, l0, l1, behind[0])
-        g = _average(green[0], green[1], x, u0, u1, l0, l1, behind[1])
-        b = _average(blue[0], blue[1], x, u0, u1, l0, l1, behind[2])
-        a = behind[3]
-        alpha = (((one if u0 else a) + (one if u1 else a)) + ((one if l0 else a) + (one if l1 else a))) * np.float32(
-            0.25
-        )
-        out[x] = _pack(r, g, b, alpha, low, borders)
-
-
-@compiled
-def _resolve_row(depth, red, green, blue, row, n, reach, behind, plain, low, borders, out):
-    """One row of pixels out of n rows of samples from ``row`` on."""
-    first, last = reach[row, 0], reach[row, 1]
-    if n == 2:
-        first, last = min(first, reach[row + 1, 0]) // 2, (max(last, reach[row + 1, 1]) + 1) // 2
-    if first >= last:
-        first = last = 0
-    out[:first] = plain
-    out[last:] = plain
-    rows, part = slice(row, row + n), slice(first * n, last * n)
-    if n == 2:
-        _resolve_four(
-            depth[rows, part],
-            red[rows, part],
-            green[rows, part],
-            blue[rows, part],
-            behind,
-            plain,
-            low,
-            borders,
-            out[first:last],
-        )
+            means[v, :count] = plane[row, first:last]
+    if opaque:
+        codes[3, :count] = 255
     else:
-        _resolve_single(
-            depth[row, part],
-            red[row, part],
-            green[row, part],
-            blue[row, part],
-            behind,
-            plain,
-            low,
-            borders,
-            out[first:last],
-        )
+        for v in range(3):
+            _divide(means[v, :count], means[3, :count])
+        _encode_alpha(means[3, :count], codes[3, :count])
+    for v in range(3):
+        _encode(means[v, :count], low, borders, codes[v, :count])
+    _pack(codes[:, :count], out[first:last])
 
 
 @compiled
 def draw_bands(
-    start, stride, band_rows, n, edges, planes, counts, members, rows, reach, behind, plain, low, borders, out
+    start, stride, band_rows, n, edges, planes, counts, members, rows, means, codes, behind, plain, low, borders, out
 ):
-    """Draw bands start, start + stride, …: ``rows`` (4, band_rows, W n) are this thread's own, ``out`` (H, W) packed."""
+    """Draw bands start, start + stride, … into ``out`` (H, W), packed pixels.
+
+    ``rows`` (4, band_rows, W n), ``means`` (4, W) and ``codes`` (4, W) are this thread's own.
+    """
     height, width = out.shape[0] * n, out.shape[1] * n
-    depth, red, green, blue = rows[0], rows[1], rows[2], rows[3]
-    flat = depth.reshape(-1), red.reshape(-1), green.reshape(-1), blue.reshape(-1)
+    reach = np.empty((band_rows, 2), dtype=np.int64)
+    depth, red = rows[0].reshape(-1), rows[1].reshape(-1)
+    green, blue = rows[2].reshape(-1), rows[3].reshape(-1)
     for b in range(start, len(counts) - 1, stride):
         top, end = b * band_rows, min((b + 1) * band_rows, height)
         depth[:] = np.float32(0.0)
         reach[:, 0] = width
         reach[:, 1] = 0
         for m in range(counts[b], counts[b + 1]):
-            _draw_triangle(edges, planes, members[m], top, end, width, flat[0], flat[1], flat[2], flat[3], reach)
+            _draw_triangle(edges, planes, members[m], top, end, width, depth, red, green, blue, reach)
         for y in range(top // n, end // n):
             row = y * n - top
-            _resolve_row(depth, red, green, blue, row, n, reach, behind[y], plain[y], low, borders, out[y])
+            first, last = reach[row, 0], reach[row, 1]
+            if n == 2:
+                first, last = min(first, reach[row + 1, 0]) // 2, (max(last, reach[row + 1, 1]) + 1) // 2
+            if first >= last:
+                out[y] = plain[y]
+                continue
+            out[y, :first] = plain[y]
+            out[y, last:] = plain[y]
+            _resolve_row(rows, row, n, first, last, behind[y], low, borders, means, codes, out[y])
