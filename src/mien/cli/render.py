@@ -33,7 +33,7 @@ def render(
     from mien.formats.table import find_format
 
     from . import settings
-    from .stages import Stages
+    from .stages import Stages, format_time
     from .writing import prepare
 
     find_format(out, "picture")
@@ -55,4 +55,4 @@ def render(
     stages = Stages(quiet)
     prepare(stages)
     api.draw(subject, pose, scene, threads=threads).write(out)
-    stages.say(f"{out}: {scene.size_px[0]}x{scene.size_px[1]} pixels; done in {stages.elapsed_s:.1f} s")
+    stages.say(f"{out}: {scene.size_px[0]}x{scene.size_px[1]} pixels; done in {format_time(stages.elapsed_s)}")

@@ -28,7 +28,7 @@ class Stages:
         """A stage without measurable progress; its line tells what it took."""
         start = time.perf_counter()
         yield
-        self.say(f"{name}: {time.perf_counter() - start:.1f} s")
+        self.say(f"{name}: {format_time(time.perf_counter() - start)}")
 
     @contextmanager
     def progress(self, name: str) -> Iterator[Callable[[int, int], None]]:
@@ -41,7 +41,7 @@ class Stages:
                 yield report
         else:
             yield _lines(name, self.say)
-        self.say(f"{name}: {time.perf_counter() - start:.1f} s")
+        self.say(f"{name}: {format_time(time.perf_counter() - start)}")
 
     @property
     def elapsed_s(self) -> float:
@@ -79,8 +79,10 @@ def _bar(name: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def format_time(length_s: float) -> str:
-    """A length of time as people say it: 8 s, 3 min 20 s, 1 h 5 min."""
+    """A length of time as people say it: 0.8 s, 8 s, 3 min 20 s, 1 h 5 min."""
     whole = round(length_s)
+    if whole < 5:
+        return f"{length_s:.1f} s"
     if whole < 60:
         return f"{whole} s"
     if whole < 3600:

@@ -13,8 +13,8 @@ def warmup(quiet: options.Quiet = False) -> None:
     """
     from mien.render import warmup
 
-    from .stages import Stages
+    from .stages import Stages, format_time
 
     stages = Stages(quiet)
     warmup(stages.say)
-    stages.say(f"ready in {stages.elapsed_s:.1f} s")
+    stages.say(f"ready in {format_time(stages.elapsed_s)}")
