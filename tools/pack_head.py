@@ -46,7 +46,7 @@ def twin_name(name: str) -> str:
 
 def main(folder: Path) -> None:
     head, morphs = dict(np.load(folder / "head2.npz")), np.load(folder / "head2_expressions.npz")
-    mend_head.mend(head)
+    mend_head.mend(head, dict(morphs))
     mirror = head["mirror_full"]
     flip = np.array([-1.0, 1.0, 1.0])
     for name in ("control", "control_onsurface", "jaw_residual_control", "jaw_residual_onsurface"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -65,10 +65,21 @@ class Parameter:
         return f"it goes from {self.low:g} to {self.high:g}" + (f" {self.unit}" if self.unit else "")
 
 
-def both_sides(row: Parameter) -> tuple[Parameter, Parameter]:
-    """The rows ``name.left`` and ``name.right`` of a row; ``{side}`` in its doc becomes the side."""
+def both_sides(
+    name: str,
+    low: float,
+    high: float,
+    default: float = 0.0,
+    unit: str = "",
+    group: str = "",
+    odd: bool = False,
+    doc: str = "",
+    source: str = "",
+) -> tuple[Parameter, Parameter]:
+    """The rows ``name.left`` and ``name.right``; ``{side}`` in the doc becomes the side."""
     left, right = (
-        replace(row, name=row.name + side, doc=row.doc.replace("{side}", side.removeprefix("."))) for side in SIDES
+        Parameter(name + side, low, high, default, unit, group, odd, doc.replace("{side}", side[1:]), source)
+        for side in SIDES
     )
     return left, right
 

@@ -27,6 +27,10 @@ SPOT_LIFT = 1.006
 MOST_SIDEWAYS, MOST_UP = 1.0, 0.7
 """Tangents of the farthest that an eye turns: 45 degrees sideways, 35 up or down."""
 
+KAPPA_DEG = 4.0
+"""The pupil of an eye that looks at something points some 4 to 5 degrees outwards of it (angle kappa); without it a
+head that looks at the viewer seems to squint. Parke's eyes have none."""
+
 CLASSIC, SMOOTH = 12, 24
 """Sides of the pupil: his 12, and 24 for the subdivided head."""
 

@@ -29,6 +29,7 @@ from .muscles import add_sideways, contract_muscles
 from .neck import head_angles, neck_share, turn_back, turn_direction, turn_head
 from .parts import Layout, lay_out
 from .presets import head_presets
+from .residual import Residual, apply_residual, carry, eyes_of
 from .table import head_table
 from .tongue import move_tongue
 from .units import DEG
@@ -45,6 +46,7 @@ class Head:
         hair: one of the styles that ship.
         values: what this person has instead of the table's defaults (colours mostly).
         kind: cage for subdivided pictures, surface for classic ones.
+        residual: points of the person's own, beyond the parameters.
         parke_jaw: Parke's shares of the jaw's angle instead of the fitted ones with their residual.
         doc: who it is, in a line.
     """
@@ -55,6 +57,7 @@ class Head:
     kind: Kind = "cage"
     parke_jaw: bool = False
     doc: str = ""
+    residual: Residual | None = None
     family: str = field(default="head", init=False)
     _colors: OrderedDict[bytes, Floats] = field(default_factory=OrderedDict, init=False, repr=False)
 
@@ -73,7 +76,7 @@ class Head:
         """The same head with points on the measured surface, for pictures without subdivision."""
         if self.kind == "surface":
             return self
-        return Head(self.name, self.hair, self.values, "surface", self.parke_jaw, self.doc)
+        return Head(self.name, self.hair, self.values, "surface", self.parke_jaw, self.doc, self.residual)
 
     @property
     def topology(self) -> Topology:
@@ -106,8 +109,8 @@ class Head:
         parts["brow.left"], parts["brow.right"] = turn_head(left, angles), turn_head(right, angles)
         for name, points in inside.items():
             parts[name] = turn_head(points, angles)
-        parts["collar"] = self._collar
-        parts["hair"] = turn_head(self._hair, angles)
+        parts["collar"] = self._rest["collar"]
+        parts["hair"] = turn_head(self._rest["hair"], angles)
         layout = self._layout
         return Mesh(layout.topology, layout.join(parts), self._color(pose, parts, balls), layout.join(rounded))
 
@@ -139,19 +142,21 @@ class Head:
         shift = side + self._measured.morphs["jawForward"][self._chin] * pose["jaw.forward"]
         out = {}
         for name in ("teeth", "gums"):
-            points = layout.rest[name]
+            points = self._rest[name]
             lower = layout.lower[name]
             out[name] = np.where(lower[:, None], rotate_jaw(points, angle, axis) + shift, points)
-        out["tongue"] = rotate_jaw(move_tongue(layout.rest["tongue"], pose), 0.82 * angle, axis) + 0.7 * shift
+        out["tongue"] = rotate_jaw(move_tongue(self._rest["tongue"], pose), 0.82 * angle, axis) + 0.7 * shift
         return out
 
     def _eyes(self, pose: Pose, angles: tuple[float, float, float]) -> dict[str, eyes.Eye]:
         (target,) = self._room(pose, ("target",), angles)
+        centres, radius = self._balls
         out = {}
         for number, side in enumerate(("left", "right")):
-            centre = self._eye_centre[number]
-            forward = eyes.look_at(centre, target, pose[f"eye.turn.{side}"], pose[f"eye.nod.{side}"])
-            out[side] = eyes.Eye(centre, self._eye_radius, forward)
+            centre = centres[number]
+            kappa = 0.0 if self.parke_jaw else (eyes.KAPPA_DEG if side == "left" else -eyes.KAPPA_DEG)
+            forward = eyes.look_at(centre, target, pose[f"eye.turn.{side}"] + kappa, pose[f"eye.nod.{side}"])
+            out[side] = eyes.Eye(centre, radius, forward)
         return out
 
     @staticmethod
@@ -194,7 +199,14 @@ class Head:
 
     @cached_property
     def _measured(self) -> Measured:
-        return self._archive.measured(self.kind)
+        measured = self._archive.measured(self.kind)
+        return measured if self.residual is None else apply_residual(measured, self.residual, self._archive)
+
+    @cached_property
+    def _rest(self) -> Mapping[str, Points]:
+        """Part -> (N, 3) m of what is not bound to the skin."""
+        rest = {**self._layout.rest, "collar": self._archive.floats("collar_points")}
+        return {name: carry(points, self._archive, self.residual) for name, points in rest.items()}
 
     @cached_property
     def _layout(self) -> Layout:
@@ -241,20 +253,8 @@ class Head:
         return self._archive.vertex["k11_2"]
 
     @cached_property
-    def _eye_centre(self) -> Points:
-        return self._archive.floats("eye_centre")
-
-    @cached_property
-    def _eye_radius(self) -> float:
-        return float(self._archive.floats("eye_radius"))
-
-    @cached_property
-    def _collar(self) -> Points:
-        return self._archive.floats("collar_points")
-
-    @cached_property
-    def _hair(self) -> Points:
-        return self._layout.rest["hair"]
+    def _balls(self) -> tuple[Points, float]:
+        return eyes_of(self.residual, self._archive)
 
     @cached_property
     def _normal_matrix(self) -> SparseMatrix:

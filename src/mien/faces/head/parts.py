@@ -20,7 +20,7 @@ from .measured import Archive, Floats
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
 EYE = Material(gloss=0.5, gloss_power=90, round=True)
 SPOT = Material(lit=False)
-WET = Material(gloss=0.16, gloss_power=28)
+WET = Material(gloss=0.035, gloss_power=20)
 TOOTH = Material(gloss=0.22, gloss_power=36)
 BROW = Material(gloss=0.015, gloss_power=10)
 LASH = Material(two_sided=True)
@@ -30,6 +30,10 @@ HAIR = {
     "crop": Material(gloss=0.06, gloss_power=20, two_sided=True),
 }
 HAIR_DEFAULT = Material(gloss=0.11, gloss_power=22, two_sided=True)
+
+DEEP_TOOTH = (0.10, 0.055, 0.045)
+DEEP_FLESH = (0.10, 0.05, 0.05)
+"""What light is left deep in the mouth: it is lit as if it lay in the open, so it must be painted dark."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +85,11 @@ class Layout:
             out[f"caruncle.{side}"] = np.tile(corner, (7, 1))
             out[f"lash.{side}"] = dark
             out[f"brow.{side}"] = brow
-        out["teeth"] = of("tooth") * shades.depth_shade(rest["teeth"], 0.086, 0.034, (0.10, 0.055, 0.045))
-        out["gums"] = of("gum") * shades.depth_shade(rest["gums"], 0.090, 0.034, (0.08, 0.05, 0.05))
-        out["tongue"] = of("tongue") * shades.depth_shade(rest["tongue"], 0.086, 0.03, (0.10, 0.06, 0.06))
+        out["teeth"] = (
+            of("tooth") * shades.tooth_light(archive) * shades.depth_shade(rest["teeth"], 0.086, 0.03, DEEP_TOOTH)
+        )
+        out["gums"] = of("gum") * shades.depth_shade(rest["gums"], 0.092, 0.024, DEEP_FLESH)
+        out["tongue"] = of("tongue") * shades.depth_shade(rest["tongue"], 0.088, 0.034, DEEP_FLESH)
         band = archive.ints("collar_band").astype(bool)
         cloth = np.tile(of("garment"), (len(archive.floats("collar_points")), 1))
         cloth[np.unique(archive.ints("collar_quads")[band])] *= 0.82
@@ -112,7 +118,7 @@ def lay_out(archive: Archive, hair: str, sides: int) -> Layout:
     rest["hair"] = np.zeros((0, 3)) if bald else archive.floats(f"hair_{hair}_points")
     rows: list[tuple[str, int, list[Ints], Material]] = [("skin", len(archive.mirror), [archive.quads], SKIN)]
     for side in ("left", "right"):
-        flip = slice(None) if side == "left" else slice(None, None, -1)
+        flip = slice(None) if side == "right" else slice(None, None, -1)
         rows += [
             (f"eye.{side}", eye_count, [pupil, rings], EYE),
             (f"spot.{side}", SPOT_SIDES, [np.arange(SPOT_SIDES)[None]], SPOT),

@@ -13,9 +13,10 @@ from mien.core import LoadError, MienError, UnknownNameError
 from .head import Head
 from .measured import archive
 from .palettes import palette_presets
+from .residual import Residual, read_residual
 
 FORMAT, VERSION = "mien-face", 1
-KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc"}
+KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc", "residual"}
 JAWS = ("fitted", "parke")
 
 
@@ -45,7 +46,15 @@ def shipped_head(name: str) -> Head:
     return make_head(address(name), row["hair"], row["palette"], {}, row.get("jaw", "fitted"), row["doc"])
 
 
-def make_head(name: str, hair: str, palette: str, values: Mapping[str, float], jaw: str, doc: str) -> Head:
+def make_head(
+    name: str,
+    hair: str,
+    palette: str,
+    values: Mapping[str, float],
+    jaw: str,
+    doc: str,
+    residual: Residual | None = None,
+) -> Head:
     """A head from choices by name; ``values`` win over the palette.
 
     Raises:
@@ -58,7 +67,9 @@ def make_head(name: str, hair: str, palette: str, values: Mapping[str, float], j
         raise UnknownNameError("palette", palette, palettes)
     if jaw not in JAWS:
         raise UnknownNameError("jaw", jaw, JAWS)
-    head = Head(name, hair, {**palettes[palette].values, **values}, parke_jaw=jaw == "parke", doc=doc)
+    head = Head(
+        name, hair, {**palettes[palette].values, **values}, parke_jaw=jaw == "parke", doc=doc, residual=residual
+    )
     _ = head.parameters
     return head
 
@@ -86,7 +97,10 @@ def read_head(path: Path) -> Head:
             if key not in KEYS:
                 raise UnknownNameError("key", key, sorted(KEYS))
         texts = {key: _text(record, key, default) for key, default in _DEFAULTS.items()}
-        return make_head(str(path), texts["hair"], texts["palette"], _values(record), texts["jaw"], texts["doc"])
+        beside = _text(record, "residual", "")
+        residual = read_residual(path.parent / beside, len(archive().mirror)) if beside else None
+        choices = (texts["hair"], texts["palette"], _values(record), texts["jaw"], texts["doc"])
+        return make_head(str(path), *choices, residual)
     except LoadError:
         raise
     except MienError as error:

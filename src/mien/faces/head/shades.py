@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from mien.core import Pose
@@ -61,6 +59,11 @@ def depth_shade(points: Points, from_z_m: float, over_m: float, tint: tuple[floa
     return 1.0 - deep * (1.0 - np.array(tint))
 
 
+def tooth_light(archive: Archive) -> Floats:
+    """(N, 1) factor: crowns are bright towards the lips and dark towards the tongue."""
+    return archive.floats("teeth_shade")[:, None]
+
+
 def brow_color(pose: Pose, along: Floats, across: Floats) -> Floats:
     """(B, 3) of a brow strip: it fades into the skin at both ends, with streaks of hair."""
     hair, skin = color_of(pose, "eyebrow"), color_of(pose, "skin")
@@ -88,10 +91,5 @@ def hair_color(pose: Pose, shade: Floats) -> Floats:
     """(N, 3) of hair: brightness of each strand, fading to skin at the hairline."""
     hair, skin = color_of(pose, "hair"), color_of(pose, "skin")
     bright = np.clip(shade[:, :1], 0.0, 2.0)
-    fade = shade[:, 1:]
+    fade = shade[:, 1:] * shade[:, 1:]
     return np.minimum((hair * 1.15 + 0.004) * bright * bright * (1.0 - fade) + skin * fade, 1.0)
-
-
-def parts_of(values: Mapping[str, Floats]) -> Floats:
-    """Arrays one below another, in order."""
-    return np.concatenate(list(values.values()))

@@ -27,7 +27,7 @@ FIXED_COLORS = (
     ("fringe", "#23221a", "Fringe around the iris."),
     ("pupil", "#0a0a0c", "Pupil."),
     ("spot", "#ffffff", "Reflection spot."),
-    ("white", "#efece6", "White of the eye."),
+    ("white", "#e3ded7", "White of the eye."),
     ("tooth", "#f0e9da", "Teeth."),
     ("gum", "#a85a56", "Gums."),
     ("tongue", "#b0605e", "Tongue."),
@@ -64,18 +64,9 @@ def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
 def _face() -> list[Parameter]:
     rows: list[Parameter] = []
     for row in face_rows():
-        one = Parameter(
-            row["name"],
-            float(row["low"]),
-            float(row["high"]),
-            float(row["default"]),
-            row["unit"],
-            row["group"],
-            row["mirror"] == "odd",
-            row["doc"],
-            row["source"],
-        )
-        rows += both_sides(one) if row["sides"] else (one,)
+        low, high, default = (float(row[key]) for key in ("low", "high", "default"))
+        cells = (low, high, default, row["unit"], row["group"], row["mirror"] == "odd", row["doc"], row["source"])
+        rows += both_sides(row["name"], *cells) if row["sides"] else (Parameter(row["name"], *cells),)
     return rows
 
 

@@ -1,0 +1,99 @@
+"""What a person's head has beyond the parameters: points of its own for the whole cage.
+
+Hair, collar, teeth, gums and tongue follow by inverse-distance weights; the eyes by what is around them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from mien.core import LoadError, Material, build_topology
+from mien.core.mesh import Points
+from mien.core.sparse import SparseMatrix
+from mien.core.subdivision import refine
+
+from .lids_fit import fit_lids
+from .measured import Archive, Measured
+
+NEIGHBOURS = 24
+SOFTENING_M = 0.008
+LID_CLEARANCE_M = 0.00035
+
+
+@dataclass(frozen=True, eq=False)
+class Residual:
+    """Moves (V, 3) m of the two position sets, symmetric, and the eyes of the person.
+
+    Attributes:
+        cage, surface: (V, 3) m.
+        eye_shift: (3,) m, of the left eye; the right one mirrors it.
+        eye_scale: radius of the ball over the neutral one.
+    """
+
+    cage: Points
+    surface: Points
+    eye_shift: Points
+    eye_scale: float = 1.0
+
+
+def read_residual(path: Path, vertex_count: int) -> Residual:
+    """The residual of an ``.npz`` with ``cage`` and ``surface`` (V, 3) m, ``eye_shift`` (3,) m and ``eye_scale``.
+
+    Raises:
+        LoadError: an array is missing, has another shape or is not finite.
+    """
+    try:
+        with np.load(path) as loaded:
+            arrays = {name: loaded[name].astype(np.float64) for name in loaded.files}
+    except (OSError, ValueError) as error:
+        raise LoadError(path, f"cannot be read as a residual: {error}") from None
+    wanted = {"cage": (vertex_count, 3), "surface": (vertex_count, 3), "eye_shift": (3,), "eye_scale": ()}
+    for name, shape in wanted.items():
+        if name not in arrays:
+            raise LoadError(path, f"array {name!r} is missing", hint=f"want {', '.join(wanted)}")
+        if arrays[name].shape != shape or not np.isfinite(arrays[name]).all():
+            raise LoadError(path, f"array {name!r}: want finite numbers of shape {shape}, got {arrays[name].shape}")
+    return Residual(arrays["cage"], arrays["surface"], arrays["eye_shift"], float(arrays["eye_scale"]))
+
+
+def refine_cage(archive: Archive) -> SparseMatrix:
+    """One subdivision step of the skin alone."""
+    topology = build_topology(len(archive.mirror), [("skin", archive.quads, Material(subdivide=True))])
+    return refine(topology).matrix
+
+
+def apply_residual(measured: Measured, residual: Residual, archive: Archive) -> Measured:
+    """The measured head with the person's points and lids that fit them."""
+    move = residual.cage if measured.kind == "cage" else residual.surface
+    points = measured.points + move
+    centres, radius = eyes_of(residual, archive)
+    matrix = refine_cage(archive) if measured.kind == "cage" else None
+    lids = fit_lids(points, measured.lids, centres, radius, matrix)
+    return replace(measured, points=points, lids=lids)
+
+
+def eyes_of(residual: Residual | None, archive: Archive) -> tuple[Points, float]:
+    """(2, 3) m centres and radius m of the eyes."""
+    centres, radius = archive.floats("eye_centre"), float(archive.floats("eye_radius"))
+    if residual is None:
+        return centres, radius
+    return centres + np.stack([residual.eye_shift, residual.eye_shift * [-1.0, 1.0, 1.0]]), radius * residual.eye_scale
+
+
+def carry(points: Points, archive: Archive, residual: Residual | None) -> Points:
+    """Points (N, 3) m of a part that is not bound to the skin, moved with the skin near it."""
+    if residual is None or not len(points):
+        return points
+    rest = archive.floats("surface")
+    out = points.copy()
+    for number, point in enumerate(points):
+        offset = rest - point
+        distance = np.sqrt(offset[:, 0] ** 2 + offset[:, 1] ** 2 + offset[:, 2] ** 2)
+        near = np.argsort(distance, kind="stable")[:NEIGHBOURS]
+        weight = 1.0 / (distance[near] + SOFTENING_M) ** 2
+        moves = residual.surface[near] * weight[:, None]
+        out[number] += np.add.accumulate(moves)[-1] / np.add.accumulate(weight)[-1]
+    return out
