@@ -1,0 +1,109 @@
+"""Which words a speaker leans on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import resources
+
+from mien.core import Cue
+
+from .chance import stream
+
+PAUSE_S = 0.09
+PHRASE_S = 2.4
+"""A phrase ends at a pause, and is taken as two where it goes on longer than this: our choice."""
+
+LEAST_APART_S = 0.55
+SECOND = 0.45
+"""Chance of an accent on a content word that is not the strongest of its phrase: our choice."""
+
+MARKS = ".,;:!?\"'()[]«»“”‘’…—-"
+
+
+@dataclass(frozen=True)
+class Accent:
+    """The moment of a word's stressed vowel.
+
+    Attributes:
+        time_s: middle of the vowel.
+        strength: 0..1; 1 for the strongest word of its phrase.
+        word: as written.
+    """
+
+    time_s: float
+    strength: float
+    word: str
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    accent: Accent
+    phrase: int
+    weight: float
+
+
+def find_accents(words: Sequence[Cue], phones: Sequence[Cue], seed: int) -> tuple[Accent, ...]:
+    """Accented words: the longest content word of each phrase, and some of the others by chance.
+
+    Words such as *the* and *of* are never accented.
+
+    Source: content words carry the accents of English (Ladefoged 2006, chapter 5); the choice among them is ours.
+    """
+    chance = stream(seed, "accents")
+    candidates = _candidates(words, phones)
+    strongest: dict[int, _Candidate] = {}
+    for candidate in candidates:
+        best = strongest.get(candidate.phrase)
+        if best is None or candidate.weight > best.weight:
+            strongest[candidate.phrase] = candidate
+    out: list[Accent] = []
+    for candidate in candidates:
+        lucky, strength = chance.random() < SECOND, 0.35 + 0.4 * chance.random()
+        chief = strongest[candidate.phrase] is candidate
+        if not (chief or lucky):
+            continue
+        accent = Accent(candidate.accent.time_s, 1.0 if chief else strength, candidate.accent.word)
+        if out and accent.time_s - out[-1].time_s < LEAST_APART_S:
+            if accent.strength <= out[-1].strength:
+                continue
+            out.pop()
+        out.append(accent)
+    return tuple(out)
+
+
+@lru_cache(maxsize=1)
+def function_words() -> frozenset[str]:
+    """English words that carry grammar rather than content."""
+    text = resources.files("mien.gaze").joinpath("data", "function_words.txt").read_text(encoding="utf-8")
+    return frozenset(word for line in text.splitlines() if not line.startswith("#") for word in line.split())
+
+
+def _candidates(words: Sequence[Cue], phones: Sequence[Cue]) -> list[_Candidate]:
+    out: list[_Candidate] = []
+    place = phrase = 0
+    begun_s = 0.0
+    for word in sorted(words):
+        pause = False
+        while place < len(phones) and phones[place].centre_s < word.start_s:
+            pause |= phones[place].symbol == "SIL" and phones[place].length_s >= PAUSE_S
+            place += 1
+        if pause or word.end_s - begun_s > PHRASE_S:
+            phrase, begun_s = phrase + 1, word.start_s
+        inside = []
+        while place < len(phones) and phones[place].centre_s < word.end_s:
+            inside.append(phones[place])
+            place += 1
+        vowel = _stressed_vowel(inside)
+        if vowel is not None and word.symbol.strip(MARKS).lower() not in function_words():
+            out.append(_Candidate(Accent(vowel.centre_s, 0.0, word.symbol), phrase, word.length_s))
+    return out
+
+
+def _stressed_vowel(phones: Sequence[Cue]) -> Cue | None:
+    for level in "12":
+        for cue in phones:
+            if cue.symbol.endswith(level):
+                return cue
+    return None
