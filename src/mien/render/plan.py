@@ -16,6 +16,7 @@ from mien.core import Topology
 from mien.core.sparse import SparseMatrix
 
 Ints = NDArray[np.int64]
+Ints32 = NDArray[np.int32]
 Floats = NDArray[np.float64]
 
 
@@ -30,12 +31,14 @@ class Plan:
         normal_sum: sums of polygon normals, one row a node.
         round: numbers of the nodes whose normal is the mesh's own.
         back: (M,) nodes that are lit once more from behind; their shades follow the N front ones.
-        corner_front: (C,) shade of a corner seen from the front.
-        corner_back: (C,) shade of a corner seen from behind.
+        triangles: (3, T) vertices of the polygons cut into triangles.
+        triangle_front: (T, 3) shades of their corners seen from the front.
+        triangle_back: (T, 3) shades of their corners seen from behind.
         lit: (N + M,) whether the light falls on it.
         gloss: (N + M,) strength of its highlight.
         powers: sharpness of highlights, with the numbers of the glossy shades that have it.
         two_sided: (F,) whether a polygon's back is drawn.
+        triangle_two_sided: (T,) the same of triangles.
         columns: the same a node, for compiled code: vertex, polygon, back shade or -1, lit, round, gloss, power.
     """
 
@@ -45,12 +48,14 @@ class Plan:
     normal_sum: SparseMatrix
     round: Ints
     back: Ints
-    corner_front: Ints
-    corner_back: Ints
+    triangles: Ints
+    triangle_front: Ints32
+    triangle_back: Ints32
     lit: NDArray[np.bool_]
     gloss: Floats
     powers: tuple[tuple[int, Ints], ...]
     two_sided: NDArray[np.bool_]
+    triangle_two_sided: NDArray[np.bool_]
     columns: tuple[NDArray[np.generic], ...]
 
 
@@ -105,12 +110,14 @@ def plan_shading(topology: Topology, flat: bool) -> Plan:
         normal_sum=total,
         round=np.flatnonzero(is_round),
         back=back,
-        corner_front=corner_node,
-        corner_back=back_node[corner_node],
+        triangles=np.ascontiguousarray(topology.triangles.T),
+        triangle_front=corner_node[topology.triangle_corners].astype(np.int32),
+        triangle_back=back_node[corner_node[topology.triangle_corners]].astype(np.int32),
         lit=lit,
         gloss=gloss,
         powers=tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy])),
         two_sided=sided[topology.part_of_polygon],
+        triangle_two_sided=sided[topology.part_of_polygon[topology.polygon_of_triangle]],
         columns=(vertex, polygon, behind, lit[:count], is_round, gloss[:count], power[:count]),
     )
 

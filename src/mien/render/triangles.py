@@ -63,49 +63,49 @@ def make_triangles(mesh: Mesh, scene: Scene, camera: Camera, light: Light = ligh
     codes = outcodes(camera, view)
     places, inverse = camera.project(view)
 
-    corners = topology.triangles
-    outside = codes[corners[:, 0]] | codes[corners[:, 1]] | codes[corners[:, 2]]
-    nowhere = codes[corners[:, 0]] & codes[corners[:, 1]] & codes[corners[:, 2]]
-    two_sided = plan.two_sided[topology.polygon_of_triangle]
-    whole = np.flatnonzero((outside == 0) & _is_seen(places, corners, two_sided))
+    first, second, third = codes[plan.triangles[0]], codes[plan.triangles[1]], codes[plan.triangles[2]]
+    outside = first | second | third
+    whole = np.flatnonzero((outside == 0) & _is_seen(places, plan.triangles, plan.triangle_two_sided))
     colors, color_of = _corner_colors(mesh, plan, shades, whole)
-    result = Triangles(places, inverse, corners[whole].astype(np.int32), colors, color_of)
-    cut = np.flatnonzero((outside != 0) & (nowhere == 0))
+    corners = np.ascontiguousarray(plan.triangles[:, whole].T, dtype=np.int32)
+    result = Triangles(places, inverse, corners, colors, color_of)
+    cut = np.flatnonzero((outside != 0) & ((first & second & third) == 0))
     if len(cut):
         colors, color_of = _corner_colors(mesh, plan, shades, cut)
-        corner_values = np.concatenate([view[corners[cut]], colors[color_of]], axis=2)
-        result = result.followed_by(_clipped(camera, corner_values, two_sided[cut]))
+        corner_values = np.concatenate([view[plan.triangles[:, cut].T], colors[color_of]], axis=2)
+        result = result.followed_by(_clipped(camera, corner_values, plan.triangle_two_sided[cut]))
     if scene.shading == "wire":
         result = result.followed_by(Triangles(*edge_ribbons(topology, view, shades.faces_viewer, plan, camera)))
     return result
 
 
-def _is_seen(places: Ints32, corners: NDArray[np.integer], two_sided: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Whether triangles have an area on the raster and show their front, which runs anticlockwise, or may show both."""
-    a, b, c = (places[corners[:, k]].astype(np.int64) for k in range(3))
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+def _is_seen(places: Ints32, corners: Ints, two_sided: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether triangles (3, T) have an area on the raster and show their front, anticlockwise, or may show both."""
+    x, y = places[:, 0].astype(np.float64), places[:, 1].astype(np.float64)
+    ax, ay = x[corners[0]], y[corners[0]]
+    # Whole numbers below 2^25: their products are exact.
+    area = (x[corners[1]] - ax) * (y[corners[2]] - ay) - (x[corners[2]] - ax) * (y[corners[1]] - ay)
     seen: NDArray[np.bool_] = (area < 0) | ((area > 0) & two_sided)
     return seen
 
 
 def _corner_colors(mesh: Mesh, plan: Plan, shades: Shades, triangles: Ints) -> tuple[Floats, Ints32]:
     """A list of colours, and which of them each corner of these triangles (n,) has, (n, 3)."""
-    topology = mesh.topology
-    corners = topology.triangle_corners[triangles]
-    polygon = topology.polygon_of_triangle[triangles]
-    front = shades.faces_viewer[polygon][:, None]
-    shade_of = np.where(front, plan.corner_front[corners], plan.corner_back[corners])
+    polygon = mesh.topology.polygon_of_triangle[triangles]
+    shade_of = plan.triangle_front[triangles]
+    if len(plan.back):
+        behind = np.flatnonzero(~shades.faces_viewer[polygon])
+        shade_of[behind] = plan.triangle_back[triangles[behind]]
     if mesh.colored_by_polygon:
         own = mesh.colors[polygon][:, None, :]
         colors = own * shades.diffuse[shade_of] + shades.highlight[shade_of]
         return colors.reshape(-1, 3), np.arange(3 * len(triangles), dtype=np.int32).reshape(-1, 3)
-    own = np.empty((len(plan.vertex), 3))
-    at_vertex = plan.vertex >= 0
-    own[at_vertex] = mesh.colors[plan.vertex[at_vertex]]
-    if not at_vertex.all():
-        own[~at_vertex] = polygon_means(mesh.colors, plan, mesh)[plan.polygon[~at_vertex]]
+    own = mesh.colors[plan.vertex]
+    in_polygons = np.flatnonzero(plan.vertex < 0)
+    if len(in_polygons):
+        own[in_polygons] = polygon_means(mesh.colors, plan, mesh)[plan.polygon[in_polygons]]
     own = np.concatenate([own, own[plan.back]])
-    return own * shades.diffuse + shades.highlight, shade_of.astype(np.int32)
+    return own * shades.diffuse + shades.highlight, shade_of
 
 
 def _clipped(camera: Camera, corner_values: Floats, two_sided: NDArray[np.bool_]) -> Triangles:
@@ -121,5 +121,5 @@ def _clipped(camera: Camera, corner_values: Floats, two_sided: NDArray[np.bool_]
         fans.append(np.stack([first[rows], first[rows] + k, first[rows] + k + 1, rows], axis=1))
     fan = np.concatenate(fans)
     fan = fan[np.argsort(fan[:, 3], kind="stable")]
-    corners = fan[_is_seen(places, fan[:, :3], two_sided[fan[:, 3]]), :3].astype(np.int32)
+    corners = fan[_is_seen(places, fan[:, :3].T, two_sided[fan[:, 3]]), :3].astype(np.int32)
     return Triangles(places, inverse, corners, np.ascontiguousarray(flat[:, 3:]), corners)
