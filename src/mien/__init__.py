@@ -26,7 +26,7 @@ if TYPE_CHECKING:
         UnknownNameError,
     )
     from .formats.picture import Picture
-    from .perform import Performance
+    from .perform import Performance, Style
     from .speech import Speech
     from .timeline import Layer, Timeline, Track
 
@@ -49,6 +49,7 @@ __all__ = [
     "Scene",
     "Sound",
     "Speech",
+    "Style",
     "Timeline",
     "Track",
     "UnknownNameError",
@@ -66,7 +67,7 @@ __all__ = [
 _HOMES = {
     "mien.api": ("draw", "face_names", "load_face", "perform", "play", "say", "speak", "voices"),
     "mien.formats.picture": ("Picture",),
-    "mien.perform": ("Performance",),
+    "mien.perform": ("Performance", "Style"),
     "mien.speech": ("Speech",),
     "mien.timeline": ("Layer", "Timeline", "Track"),
     "mien.core": (
@@ -90,12 +91,11 @@ _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        from importlib.metadata import version
-
-        return version("mien")
-    if name not in _HOME_OF:
+        value = import_module("importlib.metadata").version("mien")
+    elif name in _HOME_OF:
+        value = getattr(import_module(_HOME_OF[name]), name)
+    else:
         raise AttributeError(f"module 'mien' has no attribute {name!r}")
-    value = getattr(import_module(_HOME_OF[name]), name)
     globals()[name] = value
     return value
 

@@ -82,6 +82,17 @@ def make_pose(face: Face, values: Mapping[str, float] | None = None, *, presets:
     return pose.replace(values or {})
 
 
+def check_emotion(face: Face, emotion: str | None) -> None:
+    """Nothing, when the face has such an expression, or none is asked for.
+
+    Raises:
+        UnknownNameError: it has none of that name.
+    """
+    known = [preset.name for preset in face.presets.values() if preset.kind == "expression"]
+    if emotion is not None and emotion not in known:
+        raise UnknownNameError(f"emotion of {face.name!r}", emotion, known)
+
+
 def draw(
     face: Face | str = DEFAULT_FACE,
     pose: Pose | Mapping[str, float] | None = None,
@@ -144,7 +155,7 @@ def perform(
 
     face = load_face(face) if isinstance(face, str) else face
     performance = make(speech, face, seed=seed, style=style or Style(), emotion=emotion)
-    timeline = with_settings(performance.timeline, pose) if pose else performance.timeline
+    timeline = performance.timeline if pose is None else with_settings(performance.timeline, pose)
     return replace(performance, timeline=timeline, scene=scene or default_scene())
 
 
@@ -154,12 +165,16 @@ def say(
     *,
     voice: str | None = None,
     seed: int = 0,
+    style: Style | None = None,
     emotion: str | None = None,
+    pose: Pose | None = None,
     scene: Scene | None = None,
 ) -> Performance:
     """A face that says a text: ``mien.say("Hello there.").write("hello.mp4")``."""
     face = load_face(face) if isinstance(face, str) else face
-    return perform(speak(text, voice), face, seed=seed, emotion=emotion, scene=scene)
+    check_emotion(face, emotion)
+    speech = speak(text, voice)
+    return perform(speech, face, seed=seed, style=style, emotion=emotion, pose=pose, scene=scene)
 
 
 def play(path: Path | str, face: Face | str | None = None, *, fps: float | None = None) -> Performance:

@@ -91,7 +91,7 @@ def play(
     if plot is not None:
         from mien.formats.plot import plot_timeline
 
-        plot_timeline(performance.timeline, performance.face.parameters, plot)
+        plot_timeline(performance.timeline, performance.face.parameters, plot, fps=rate)
         stages.say(str(plot))
     if out is not None:
         write(performance, out, rate, threads, stages)

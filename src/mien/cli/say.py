@@ -18,6 +18,14 @@ def say(
     voice: Annotated[
         str | None, typer.Option("--voice", metavar="NAME", help="Who speaks: a name from 'mien voices'.")
     ] = None,
+    style: Annotated[
+        str,
+        typer.Option(
+            "--style",
+            metavar="NAME=AMOUNT,…",
+            help="How lively, 0 (off) to 2: blinks, head, brows, gaze, strength.",
+        ),
+    ] = "",
     emotion: Annotated[
         str | None, typer.Option("--emotion", metavar="NAME", help="An expression that shows through: a preset.")
     ] = None,
@@ -41,10 +49,12 @@ def say(
     \b
     mien say "How happy is the little stone" -o stone.mp4
     mien say @poem.txt --face head:ada --view front --fps 30 -o poem.mp4
+    mien say "Good night." --preset sleepy --style blinks=2,head=0.5 -o night.mp4
     echo Hello | mien say - --emotion smile -o hello.json
     """
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
+    from mien.perform import parse_style
 
     from . import settings
     from .stages import Stages
@@ -69,6 +79,7 @@ def say(
     pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
     api.find_voice(voice)
     api.check_emotion(subject, emotion)
+    manner = parse_style(style)
     words = settings.read_text(text)
 
     stages = Stages(quiet)
@@ -77,5 +88,5 @@ def say(
     if speech.skipped:
         stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
     with stages.stage("moving the face"):
-        performance = api.perform(speech, subject, seed=seed, emotion=emotion, pose=pose, scene=scene)
+        performance = api.perform(speech, subject, seed=seed, style=manner, emotion=emotion, pose=pose, scene=scene)
     write(performance, out, rate, threads, stages)
