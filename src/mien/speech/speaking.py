@@ -75,9 +75,15 @@ def speak(
 
 
 def _say_why_nothing(text: str, voice: Voice, skipped: list[str]) -> str:
-    shown = repr(text.strip() if len(text.strip()) <= 40 else text.strip()[:40] + "…")
-    reason = f"it cannot say {', '.join(skipped[:5])}" if skipped else "there is no word in it"
+    shown = repr(_shorten(text.strip(), 40))
+    reason = (
+        f"it cannot say {', '.join(_shorten(run, 20) for run in skipped[:5])}" if skipped else "there is no word in it"
+    )
     return f"text {shown}: voice {voice.name!r} speaks {voice.language}, and {reason} — try a text with words it knows"
+
+
+def _shorten(text: str, most: int) -> str:
+    return text if len(text) <= most else text[:most] + "…"
 
 
 class _Line:

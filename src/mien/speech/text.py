@@ -207,10 +207,11 @@ def split_words(passage: str) -> list[str]:
 
 
 def trim_word(word: str) -> str:
-    """The word without the punctuation around it; itself when there is nothing else."""
-    trimmed = word.replace(" ", "").strip(_EDGE).rstrip("-")
+    """The word without the punctuation around it and what cannot be seen; itself when there is nothing else."""
+    trimmed = "".join(character for character in word if unicodedata.category(character) not in {"Cc", "Cf", "Zs"})
+    trimmed = trimmed.strip(_EDGE).rstrip("-")
     if trimmed[:1] in _APOSTROPHES and trimmed[-1:] in _APOSTROPHES:
-        trimmed = trimmed.strip(_APOSTROPHES)
+        trimmed = trimmed.strip(_APOSTROPHES).strip(_EDGE)
     return trimmed or word
 
 

@@ -12,17 +12,19 @@ import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
+from importlib.util import find_spec, module_from_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mien.core import MienError
+
 from .phones import SILENCE
 from .text import Passage, match_words, prepare_word, split_passages, split_words, trim_word
 from .voice import Utterance
-from .voice_hibari_model import check_version, open_model
+from .voice_hibari_model import HIBARI_VERSION, check_version, open_model
 from .voice_times import PAUSE_MARKS, Letter, fit_pauses, time_phones, time_words, to_cues
 
 RATE_HZ = 24000
@@ -264,7 +266,6 @@ def load_engine() -> Engine:
 def _load_engine() -> Engine:
     check_version()
     import hibari
-    from hibari import dsp
     from hibari.g2p import G2P
     from hibari.g2p.normalize import normalize
 
@@ -276,11 +277,26 @@ def _load_engine() -> Engine:
         pronounce=pronounce,
         normalize=normalize,
         session=open_model((assets / "hibari.onnx").read_bytes()),
-        synthesize=dsp.synth,
+        synthesize=_load_synthesis().synth,
         numbers=numbers,
         sayable=_read_sayable(assets),
         knows=lambda word: word.lower() in golds or word.lower() in silvers,
     )
+
+
+def _load_synthesis() -> Any:
+    """Our own copy of the module ``hibari.dsp``, whose Fourier transforms are NumPy's.
+
+    hibari takes SciPy's when it is installed, and then the same text has other samples.
+    """
+    spec = find_spec("hibari.dsp")
+    if spec is None or spec.loader is None:
+        raise MienError(f"voice 'hibari': want the module hibari.dsp of hibari-tts {HIBARI_VERSION}, got none")
+    module: Any = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.rfft = lambda signal, axis: np.fft.rfft(signal, axis=axis).astype(np.complex64)
+    module.irfft = lambda spectrum, n, axis: np.fft.irfft(spectrum, n=n, axis=axis).astype(np.float32)
+    return module
 
 
 def _read_sayable(assets: Path) -> frozenset[str]:
