@@ -71,7 +71,9 @@ def main(folder: Path) -> None:
     out["jaw_open_angle"] = head["jaw_open_angle_rad"]
     for kind, name in (("control", "cage"), ("onsurface", "surface")):
         out[f"jaw_share_{name}"] = head[f"jaw_share_{kind}"]
-        out[f"jaw_residual_{name}"] = (head[f"jaw_residual_{kind}"].astype(np.float32) * CM).astype(np.float16)
+        residual = head[f"jaw_residual_{kind}"] * CM
+        residual[np.abs(residual) < 2e-6] = 0.0
+        out[f"jaw_residual_{name}"] = residual.astype(np.float16)
         for key in ("az", "el", "r", "el_closed", "r_closed"):
             scale = CM if key.startswith("r") else 1.0
             out[f"lid_{name}_{key}"] = (head[f"lid_{kind}_{key}"] * scale).astype(points)

@@ -30,7 +30,7 @@ def brow_regions(measured: Measured) -> BrowRegions:
     """The weights, from the neutral points."""
     points = measured.points
     left, right = (
-        bell(points, (side * INNER_END[0], INNER_END[1]), (0.014, 0.009)) * own_side(points, side, 0.008)
+        bell(points, (side * INNER_END[0], INNER_END[1]), (0.018, 0.013)) * own_side(points, side, 0.008)
         for side in (1, -1)
     )
     return BrowRegions((left, right))

@@ -52,6 +52,10 @@ def normalised(vector: Floats) -> Floats:
     return vector / length if length > 1e-12 else np.array([0.0, 0.0, 1.0])
 
 
+def _dot(a: Floats, b: Floats) -> float:
+    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+
 def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: float = 0.0) -> Floats:
     """Direction (3,) in which an eye looks to see a target, within what an eye can turn, then offset by angles.
 
@@ -93,9 +97,11 @@ def spot_direction(eye: Eye, iris: float, light: Floats, viewer: Floats) -> tupl
     bulge = lens_centre(iris)
     centre, radius = (bulge, iris * float(np.sqrt(2.0))) if bulge > 0.0 else (0.0, 1.0)
     lens = eye.centre + eye.radius * centre * eye.forward
-    half = normalised(normalised(light - lens) + normalised(viewer - lens))
-    along = float(half[0] * eye.forward[0] + half[1] * eye.forward[1] + half[2] * eye.forward[2])
-    shown = min(max((along - 0.62) / 0.12, 0.0), 1.0)
+    to_light = normalised(light - lens)
+    half = normalised(to_light + normalised(viewer - lens))
+    # The spot fades where the lens ends (45 degrees from its axis) and where the light only grazes it.
+    on_lens, lit = (_dot(half, eye.forward) - 0.62) / 0.12, (_dot(half, to_light) - 0.15) / 0.15
+    shown = min(max(min(on_lens, lit), 0.0), 1.0)
     return normalised(centre * eye.forward + radius * half), shown
 
 
