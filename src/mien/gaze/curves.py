@@ -3,22 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-
-import numpy as np
-from numpy.typing import NDArray
+from functools import lru_cache
 
 from mien.timeline import Track
 
-Floats = NDArray[np.float64]
-
 STEPS = 6
 """Straight pieces of a smooth way; the error is under 1.5 % of it."""
-
-
-def smooth(x: Floats | float) -> Floats:
-    """3x² - 2x³, held in 0..1: slow at both ends."""
-    x = np.clip(x, 0.0, 1.0)
-    return x * x * (3.0 - 2.0 * x)
 
 
 def way(times_s: Sequence[float], places: Sequence[float], *, steps: int = STEPS, name: str = "") -> Track:
@@ -37,9 +27,9 @@ def way(times_s: Sequence[float], places: Sequence[float], *, steps: int = STEPS
         if end <= start:
             continue
         count = 1 if places[i] == places[i - 1] else steps
-        for share in (np.arange(1, count + 1) / count).tolist():
+        for share, height in _steps(count):
             times.append(start + share * (end - start))
-            values.append(places[i - 1] + float(smooth(share)) * (places[i] - places[i - 1]))
+            values.append(places[i - 1] + height * (places[i] - places[i - 1]))
     return Track.from_keys(times, values, name=name)
 
 
@@ -58,3 +48,10 @@ def pulses(
     times.append(max(length_s, times[-1]))
     values.append(0.0)
     return way(times, values, name=name, steps=steps)
+
+
+@lru_cache(maxsize=16)
+def _steps(count: int) -> tuple[tuple[float, float], ...]:
+    """Share of the time and of the way after each of ``count`` steps of a smooth way: 3x² - 2x³."""
+    shares = [step / count for step in range(1, count + 1)]
+    return tuple((x, x * x * (3.0 - 2.0 * x)) for x in shares)
