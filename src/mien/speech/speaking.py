@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -62,6 +63,8 @@ def speak(
         if not line.words:
             raise MienError(_say_why_nothing(text, speaker, list(skipped)))
         store.write(line.finish())
+        if report is not None:
+            report(len(text), len(text), "speaking")
         return Speech(
             text,
             Sound(store.samples(), speaker.rate_hz),
@@ -183,7 +186,8 @@ class _Store:
     def close(self) -> None:
         """The file's name given back; a map of it stays good."""
         if self._file is not None:
-            self._file.close()
+            with suppress(OSError):  # what could not be written was told when it was written
+                self._file.close()
 
     def _flush(self) -> None:
         try:

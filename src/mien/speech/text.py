@@ -30,6 +30,7 @@ WRAPPED_LINE = 50
 
 _NEWLINES = re.compile(r"\r\n|[\n\r\v\f\u0085\u2028\u2029]")
 _SENTENCE_END = re.compile(r"[.!?…。！？]+[\"”’)\]»]*\s+(?=\S)")
+_SURROGATE = re.compile("[\ud800-\udfff]")  # what Python makes of bytes that are no UTF-8
 _CLAUSE_END = re.compile(r"[,;:—–][\"”’)\]»]*\s")
 _OPENING = "(\"“'‘[«"
 _TITLES = frozenset(
@@ -208,7 +209,9 @@ def split_words(passage: str) -> list[str]:
 
 def trim_word(word: str) -> str:
     """The word without the punctuation around it and what cannot be seen; itself when there is nothing else."""
-    trimmed = "".join(character for character in word if unicodedata.category(character) not in {"Cc", "Cf", "Zs"})
+    trimmed = "".join(
+        character for character in word if unicodedata.category(character) not in {"Cc", "Cf", "Cs", "Zs"}
+    )
     trimmed = trimmed.strip(_EDGE).rstrip("-")
     if trimmed[:1] in _APOSTROPHES and trimmed[-1:] in _APOSTROPHES:
         trimmed = trimmed.strip(_APOSTROPHES).strip(_EDGE)
@@ -222,7 +225,7 @@ def prepare_word(word: str, sayable: frozenset[str]) -> SpokenWord:
     script become 0 to 9, symbols become words. Marks that have no sound (joiners, soft hyphens) and punctuation need
     no mention. All else is skipped, in runs as written.
     """
-    composed = unicodedata.normalize("NFC", word)
+    composed = unicodedata.normalize("NFC", _SURROGATE.sub("\ufffd", word))
     spoken: list[str] = []
     runs: list[str] = []
     in_run = False

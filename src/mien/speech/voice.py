@@ -87,7 +87,7 @@ def voices() -> Mapping[str, Voice]:
     """The voices that can speak on this machine, the built-in one first.
 
     A plug-in is an entry point of the group ``mien.voices`` that names a function without arguments; it returns a
-    voice, or None when something it needs is absent.
+    voice, or None when something it needs is absent. A plug-in that cannot be imported is absent, too.
 
     Raises:
         MienError: for a plug-in that returns something else.
@@ -96,7 +96,10 @@ def voices() -> Mapping[str, Voice]:
 
     found: list[Voice | None] = [find_hibari()]
     for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
-        voice = entry.load()()
+        try:
+            voice = entry.load()()
+        except ImportError:
+            continue
         if voice is not None and not isinstance(voice, Voice):
             raise MienError(
                 f"voice plug-in {entry.value!r}: want a mien.speech.Voice or None, got {type(voice).__name__}"

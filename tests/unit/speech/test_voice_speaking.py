@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gc
+import resource
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -99,7 +100,7 @@ def test_what_was_skipped_is_told_once_in_order():
 def test_progress_counts_characters():
     seen: list[tuple[int, int, str]] = []
     speak("ab", Fake((hum(), hum())), report=lambda *step: seen.append(step))
-    assert seen == [(1, 2, "speaking"), (1, 2, "speaking")]
+    assert seen == [(1, 2, "speaking"), (1, 2, "speaking"), (2, 2, "speaking")]
 
 
 def test_long_sound_lives_in_a_file_that_goes_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
@@ -121,6 +122,18 @@ def test_no_room_for_long_sound_is_said(tmp_path: Path, monkeypatch: pytest.Monk
         speak("a", Fake((hum(),) * 20), folder=tmp_path / "gone")
 
 
+def test_a_full_disk_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+    try:
+        with pytest.raises(MienError, match=r"cannot keep .* File too large — set TMPDIR"):
+            speak("a", Fake((hum(),) * 20), folder=tmp_path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_interrupted_speech_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
 
@@ -137,7 +150,7 @@ def test_utterances_are_taken_one_at_a_time():
     fake = Fake((hum(),) * 3)
     seen: list[int] = []
     speak("a", fake, report=lambda *_: seen.append(len(fake.taken)))
-    assert seen == [1, 2, 3]
+    assert seen == [1, 2, 3, 3]
 
 
 class Plug:
@@ -147,11 +160,13 @@ class Plug:
         self.name, self.value, self.found = name, f"plug:{name}", found
 
     def load(self) -> object:
+        if isinstance(self.found, ImportError):
+            raise self.found
         return lambda: self.found
 
 
 def test_voices_are_those_that_are_present(monkeypatch: pytest.MonkeyPatch):
-    plugs = [Plug("fake", Fake(())), Plug("absent", None)]
+    plugs = [Plug("fake", Fake(())), Plug("absent", None), Plug("broken", ImportError("x"))]
     monkeypatch.setattr(voice, "entry_points", lambda group: plugs if group == "mien.voices" else [])
     assert list(voices()) == ["hibari", "fake"]
     assert all(isinstance(each, Voice) for each in voices().values())

@@ -118,6 +118,7 @@ def test_punctuation_around_a_word_is_left_out(word: str, want: str):
         ("so\u00adft", ("soft",), ()),
         ("3≤4", ("3", "is", "at", "most", "4"), ()),
         ("«oui»", ("“oui”",), ()),
+        ("a\udcffb", ("a", "b"), ("\ufffd",)),
     ],
 )
 def test_what_is_said_for_a_word(word: str, spoken: tuple[str, ...], skipped: tuple[str, ...]):
