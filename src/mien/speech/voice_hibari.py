@@ -35,8 +35,8 @@ LATE_SAMPLES = 1440
 """Samples (60 ms) by which the durations lag behind the sound.
 
 Measured on 12 sentences, 368 phones: median 60 ms against a forced alignment by pocketsphinx, 62 ms against the
-steepest change of energy where a vowel meets a consonant. With it, the cues of 16 sentences, 494 phones, begin 15 ms from the
-alignment's (median), 96 % of them within 50 ms; the durations themselves come in steps of 25 ms.
+steepest change of energy where a vowel meets a consonant. With it, the cues of 16 sentences, 494 phones, begin 15 ms
+from the alignment's (median), 96 % of them within 50 ms; the durations themselves come in steps of 25 ms.
 """
 
 SPEECH_LEVEL = 3276.8
