@@ -109,7 +109,7 @@ class Topology:
         """(T, 3) corner numbers of the fans."""
         first = np.repeat(self.starts[:-1], np.diff(self.starts) - 2)
         second = np.concatenate(
-            [np.arange(a + 1, b - 1) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
+            [np.zeros(0), *(np.arange(a + 1, b - 1) for a, b in zip(self.starts[:-1], self.starts[1:], strict=True))]
         )
         second = second.astype(np.int64)
         return np.stack([first, second, second + 1], axis=1)
