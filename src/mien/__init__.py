@@ -5,7 +5,9 @@ Names are imported when they are first used, so that ``import mien`` alone costs
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -102,3 +104,21 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
+
+
+class _Perform(ModuleType):
+    """The subpackage ``mien.perform``, which has the name of the function ``mien.perform`` and so answers for it."""
+
+    def __call__(self, *arguments: Any, **options: Any) -> Any:
+        return import_module("mien.api").perform(*arguments, **options)
+
+
+class _Mien(ModuleType):
+    def __setattr__(self, name: str, value: Any) -> None:
+        # Whoever imports a subpackage makes it an attribute of its parent, in the place of the function.
+        if name == "perform" and isinstance(value, ModuleType):
+            value.__class__ = _Perform
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Mien

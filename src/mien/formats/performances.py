@@ -83,7 +83,7 @@ def write_performance(
         MienError: something does not suit, or the place cannot be written; an existing file stays as it was.
     """
     path, face, timeline, sound = Path(path), performance.face, performance.timeline, performance.sound
-    fps = fps or timeline.fps or DEFAULT_FPS
+    fps = (timeline.fps or DEFAULT_FPS) if fps is None else fps
     scene = scene or performance.scene
     kind = check_performance(path, fps=fps, scene=scene)
     marks = notes(face.name, timeline.title)

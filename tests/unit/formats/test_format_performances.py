@@ -171,6 +171,7 @@ def test_a_scene_that_cannot_be_is_refused_with_its_place(change: dict, message:
         ("a.png", {}, MienError, "a_%04d.png"),
         ("a.mp4", {"fps": 241}, RangeError, "from 1 to 240"),
         ("a.mp4", {"fps": float("nan")}, RangeError, "from 1 to 240"),
+        ("a.mp4", {"fps": 0}, RangeError, "from 1 to 240"),
         ("frames", {"fps": 0.1}, RangeError, "from 1 to 240"),
         ("a.mp4", {"scene": Scene(size_px=(33, 32))}, RangeError, "try 34x32"),
         ("a.mp4", {"scene": Scene(background=((0, 0, 0, 0), (0, 0, 0, 0)))}, RangeError, "no transparency"),

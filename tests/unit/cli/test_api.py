@@ -1,0 +1,72 @@
+"""The Python interface, on the real head."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mien
+from mien import api
+
+SCENE = mien.Scene(size_px=(48, 48), subdivide=0)
+
+
+def test_draw_takes_a_face_or_its_address_and_a_pose_or_its_values(tmp_path: Path) -> None:
+    face = mien.load_face("head")
+    pose = face.neutral if hasattr(face, "neutral") else mien.Pose.neutral(face.parameters)
+    one = mien.draw(face, pose.replace({"jaw.rotation": 8, "mouth.expression": 0.2}), SCENE)
+    other = mien.draw("head", {"jaw.rotation": 8, "mouth.expression": 0.2}, SCENE, threads=2)
+    np.testing.assert_array_equal(one.pixels, other.pixels)
+    assert one.size_px == (48, 48)
+    assert one.notes["Face"] == "head"
+    one.write(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == one._repr_png_()
+
+
+def test_a_pose_from_presets_and_values() -> None:
+    face = mien.load_face("head")
+    pose = api.make_pose(face, {"jaw.rotation": 3}, presets=["laugh"])
+    laugh = face.presets["laugh"].values
+    assert pose["jaw.rotation"] == 3
+    assert pose.changed() == {**api.make_pose(face, laugh).changed(), "jaw.rotation": 3.0}
+    with pytest.raises(mien.UnknownNameError, match="did you mean 'laugh'"):
+        api.make_pose(face, presets=["lough"])
+
+
+def test_say_in_one_line_and_in_three_give_the_same_film(tmp_path: Path) -> None:
+    mien.say("Go.", face="head", seed=4, scene=SCENE).write(tmp_path / "a.mp4", fps=12)
+    performance = mien.perform(mien.speak("Go."), mien.load_face("head"), seed=4, scene=SCENE)
+    performance.write(tmp_path / "b.mp4", fps=12)
+    assert (tmp_path / "a.mp4").read_bytes() == (tmp_path / "b.mp4").read_bytes()
+
+
+def test_the_function_perform_and_the_package_perform_share_a_name() -> None:
+    import mien.perform
+
+    for _ in range(2):
+        assert callable(mien.perform)
+        assert mien.perform.Style is mien.Style
+
+
+def test_play_gives_back_what_was_written(tmp_path: Path) -> None:
+    performance = mien.say("Go.", scene=SCENE)
+    performance.write(tmp_path / "a.json", fps=25)
+    back = mien.play(tmp_path / "a.json")
+    assert (back.scene, back.timeline.fps, back.face.name) == (SCENE, 25.0, "head")
+    times, table = back.timeline.frame_times(25), back.face.parameters
+    np.testing.assert_array_equal(back.timeline.values(times, table), performance.timeline.values(times, table))
+    assert mien.play(tmp_path / "a.json", face="head:ada").face.name == "head:ada"
+
+
+def test_settings_are_the_lowest_layer_and_add_up() -> None:
+    face = mien.load_face("head")
+    timeline = mien.Timeline((mien.Layer("speech", "add", {}),), 1.0)
+    first = api.with_settings(timeline, api.make_pose(face, {"head.turn": 5, "head.nod": 1}))
+    second = api.with_settings(first, api.make_pose(face, {"head.nod": 2}))
+    assert [layer.name for layer in second.layers] == ["settings", "speech"]
+    values = second.values([0.0, 0.5], face.parameters)
+    assert values[:, face.parameters.index["head.turn"]].tolist() == [5.0, 5.0]
+    assert values[:, face.parameters.index["head.nod"]].tolist() == [2.0, 2.0]
+    assert api.with_settings(timeline, mien.Pose.neutral(face.parameters)) is timeline

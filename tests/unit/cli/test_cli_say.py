@@ -1,0 +1,115 @@
+"""The main job with the real head and the real voice: a sentence in, a talking head out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+from PIL import Image
+
+from mien.cli import main
+
+SMALL = ["--size", "96", "--subdivide", "0", "--threads", "1"]
+
+
+def say(*arguments: str) -> None:
+    assert main(["say", *arguments, *SMALL, "--quiet"]) == 0
+
+
+def streams(path: Path) -> tuple[np.ndarray, np.ndarray, list[float]]:
+    """Frames (N, H, W, 3), samples (M,) and the lengths of both streams, s."""
+    with av.open(str(path)) as film:
+        assert [stream.type for stream in film.streams] == ["video", "audio"]
+        lengths = [float(stream.duration * stream.time_base) for stream in film.streams]
+        frames = np.stack([frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)])
+    with av.open(str(path)) as film:
+        samples = np.concatenate([frame.to_ndarray()[0] for frame in film.decode(audio=0)])
+    return frames, samples, lengths
+
+
+@pytest.fixture(scope="module")
+def hello(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("say") / "hello.mp4"
+    say("Hello there, my baby.", "-o", str(path))
+    return path
+
+
+def test_the_film_has_picture_and_sound_of_one_length(hello: Path) -> None:
+    frames, samples, (picture_s, sound_s) = streams(hello)
+    assert 1.0 < picture_s < 4.0
+    assert abs(picture_s - sound_s) < 1.5 / 24
+    assert len(frames) == round(picture_s * 24)
+    assert len(samples) / 24000 == pytest.approx(sound_s, abs=0.05)
+
+
+def test_it_is_heard(hello: Path) -> None:
+    _, samples, _ = streams(hello)
+    loudness = 20 * np.log10(np.sqrt(np.mean(samples**2)))
+    assert -40 < loudness < -10
+    assert np.abs(samples).max() <= 1.0
+
+
+def test_the_mouth_moves_and_the_background_does_not(hello: Path) -> None:
+    frames = streams(hello)[0].astype(int)
+    steps = np.abs(np.diff(frames, axis=0)).max(axis=3)
+    assert (steps.max(axis=(1, 2)) > 8).mean() > 0.5
+    lower, corner = steps[:, 48:80, 24:72], steps[:, :12, :12]
+    assert lower.max() > 40
+    assert corner.max() <= 4
+
+
+def test_it_says_that_it_is_synthetic(hello: Path) -> None:
+    with av.open(str(hello)) as film:
+        assert film.metadata["title"] == "Hello there, my baby."
+        assert film.metadata["face"] == "head"
+        assert "Synthetic" in film.metadata["description"]
+
+
+def test_a_stored_timeline_gives_the_same_frames_bit_for_bit(tmp_path: Path) -> None:
+    settings = ["--fps", "30", "--seed", "7", "--emotion", "smile", "--set", "head.turn=5", "--view", "front"]
+    say("Go.", *settings, "-o", str(tmp_path / "a.json"))
+    say("Go.", *settings, "-o", str(tmp_path / "said"))
+    assert main(["play", str(tmp_path / "a.json"), "-o", str(tmp_path / "played"), "-q"]) == 0
+    said, played = (sorted((tmp_path / name).glob("*.png")) for name in ("said", "played"))
+    assert [path.name for path in said] == [path.name for path in played]
+    assert len(said) > 10
+    for mine, theirs in zip(said, played, strict=True):
+        with Image.open(mine) as one, Image.open(theirs) as other:
+            np.testing.assert_array_equal(np.asarray(one), np.asarray(other))
+    assert (tmp_path / "said" / "sound.wav").read_bytes() == (tmp_path / "a.wav").read_bytes()
+
+
+def test_another_seed_moves_otherwise(tmp_path: Path) -> None:
+    for seed in ("1", "2", "1"):
+        say("Hello there, my baby.", "--seed", seed, "-o", str(tmp_path / f"{seed}.csv"))
+    one, two = ((tmp_path / f"{seed}.csv").read_text() for seed in ("1", "2"))
+    assert one != two
+
+
+@pytest.mark.parametrize("fps", ["1", "240"])
+def test_the_slowest_and_the_fastest_rate(tmp_path: Path, fps: str) -> None:
+    assert main(["say", "Go.", "--fps", fps, "-o", str(tmp_path / "a.mp4"), "--size", "16", "--subdivide", "0"]) == 0
+    frames, _, (picture_s, sound_s) = streams(tmp_path / "a.mp4")
+    assert len(frames) == round(picture_s * float(fps))
+    assert 0 <= picture_s - sound_s + 0.001 < 1 / float(fps) + 0.01
+
+
+def test_what_cannot_be_spoken_is_said(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["say", "Hello 😀 привет", "-o", str(tmp_path / "a.wav")]) == 0
+    err = capfd.readouterr().err
+    assert "not spoken" in err
+    assert "😀" in err
+    assert str(tmp_path / "a.wav") in err
+
+
+def test_nothing_but_what_cannot_be_spoken_is_a_mistake(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["say", "😀", "-o", str(tmp_path / "a.wav")]) == 2
+    assert "cannot say 😀" in capfd.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_quiet_is_quiet(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    say("Go.", "-o", str(tmp_path / "a.json"))
+    assert capfd.readouterr() == ("", "")
