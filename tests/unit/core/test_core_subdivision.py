@@ -92,7 +92,7 @@ def test_doubled_vertices_leave_no_crack():
     # Two rings of quads, a tube and its brim, that meet in a circle; each has vertices of its own there.
     angles = np.arange(8) * np.pi / 4
     around = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
-    tube = np.concatenate([around, around + [0, 0, 1]])
+    tube = np.concatenate([around, around + np.array([0, 0, 1])])
     brim = np.concatenate([2 * around, around])
     next_one = (np.arange(8) + 1) % 8
     ring = np.stack([np.arange(8), next_one, next_one + 8, np.arange(8) + 8], axis=1)
