@@ -58,9 +58,16 @@ def join_silences(phones: Iterable[Cue]) -> tuple[Cue, ...]:
 def soften_pauses(phones: Iterable[Cue]) -> tuple[Cue, ...]:
     """The phones with short pauses marked: under 120 ms the mouth holds, up to 350 ms it relaxes partly.
 
+    Before the first phone and after the last the mouth rests, however short that is.
+
     Source: Edwards et al. 2016 (JALI), section 4; the lengths are our choice.
     """
-    return tuple(Cue(cue.start_s, cue.end_s, _pause(cue.length_s)) if cue.symbol == SILENCE else cue for cue in phones)
+    cues = tuple(phones)
+    ends = (0, len(cues) - 1)
+    return tuple(
+        Cue(cue.start_s, cue.end_s, _pause(cue.length_s)) if cue.symbol == SILENCE and i not in ends else cue
+        for i, cue in enumerate(cues)
+    )
 
 
 def _pause(length_s: float) -> str:

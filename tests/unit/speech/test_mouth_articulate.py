@@ -181,6 +181,10 @@ def test_any_phones_give_shares_from_rest_to_rest(words: list[tuple[str, int]], 
         assert track.first_s == 0.0
 
 
+def test_a_film_begins_with_the_mouth_at_rest() -> None:
+    assert value(articulate(poem()), "jaw", 0.0) < 0.05
+
+
 def test_no_phones_are_a_mouth_at_rest() -> None:
     for track in articulate([]).values():
         assert not np.any(track.given()[1])

@@ -42,8 +42,12 @@ def test_unknown_symbol_is_refused() -> None:
 
 
 def test_pauses_hold_relax_or_rest_by_length() -> None:
-    softened = soften_pauses(cues("SIL:119 T:50 SIL:121 T:50 SIL:350 T:50 SIL:351"))
-    assert symbols(softened)[::2] == ["SIL-hold", "SIL-relax", "SIL-relax", "SIL"]
+    softened = soften_pauses(cues("T:50 SIL:119 T:50 SIL:121 T:50 SIL:350 T:50 SIL:351 T:50"))
+    assert symbols(softened)[1::2] == ["SIL-hold", "SIL-relax", "SIL-relax", "SIL"]
+
+
+def test_the_mouth_rests_before_and_after_all_phones() -> None:
+    assert symbols(soften_pauses(cues("SIL:200 T:50 SIL:100"))) == ["SIL", "T", "SIL"]
 
 
 def test_diphthongs_split_sixty_to_forty() -> None:
