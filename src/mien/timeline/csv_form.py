@@ -34,14 +34,13 @@ def parse_csv(
         LoadError: an unknown or doubled column, a cell that is no number or out of range, times that do not rise;
             names the line.
     """
-    reader = csv.reader(text.removeprefix("\ufeff").splitlines())
-    columns = [cell.strip() for cell in next(reader, [])]
+    lines = _rows(text, source)
+    columns = [cell.strip() for cell in next(lines, (1, []))[1]]
     _check_heading(columns, source, table)
     clock, names = columns[0], columns[1:]
     times: list[float] = []
     keys: dict[str, tuple[list[float], list[float]]] = {name: ([], []) for name in names}
-    for cells in reader:
-        line = reader.line_num
+    for line, cells in lines:
         if not any(cell.strip() for cell in cells):
             continue
         if len(cells) != len(columns):
@@ -78,6 +77,16 @@ def format_csv(timeline: Timeline, table: ParameterTable, fps: float) -> Iterato
     for first, values, _ in timeline.chunks(table, fps):
         for row, numbers in enumerate(values[:, columns].tolist()):
             yield ",".join(repr(number) for number in ((first + row) / fps, *numbers))
+
+
+def _rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
+    """Line number and cells of each row."""
+    reader = csv.reader(text.removeprefix("\ufeff").splitlines())
+    try:
+        for cells in reader:
+            yield reader.line_num, cells
+    except csv.Error as error:
+        raise LoadError(source, f"is no comma-separated table ({error})", line=reader.line_num) from None
 
 
 def _check_heading(columns: list[str], source: str, table: ParameterTable | None) -> None:

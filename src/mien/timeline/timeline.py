@@ -124,7 +124,8 @@ class Timeline:
                     acted = np.clip(blend(columns[row], numbers, layer.weight), -_BOUND, _BOUND)
                     columns[row] = np.where(silent, columns[row], acted)
                     covered[row] |= covers
-        return np.clip(columns.T, table.lows, table.highs), covered.T
+        # Adding 0 makes -0 a 0: they look alike everywhere but in the bytes.
+        return np.clip(columns.T, table.lows, table.highs) + 0.0, covered.T
 
     def chunks(self, table: ParameterTable, fps: float) -> Iterator[tuple[int, Floats, NDArray[np.bool_]]]:
         """The frames at a rate in pieces of bounded size: number of the first frame, values (N, P), covered (N, P)."""

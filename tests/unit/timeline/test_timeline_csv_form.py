@@ -53,6 +53,7 @@ def test_written_table_reads_back_as_the_same_values_and_frames():
         ("frame,lid\nnow,1", "x.csv:2: frame: 'now' is not a number"),
         ("frame,lid\n0,nan", "x.csv:2: lid: nan is not a finite number"),
         ("frame,lid\n0,1e99", "x.csv:2: lid: 1e99 is not a finite number"),
+        ("frame,lid\n0," + "9" * 200_000, "x.csv:2: is no comma-separated table (field larger"),
         ("frame,lid\n0,2", "x.csv:2: lid.left: 2 is out of range — it goes from 0 to 1"),
     ],
 )

@@ -80,6 +80,11 @@ def test_only_the_outcome_is_brought_into_range():
     assert column(Timeline(layers[:1], 1), "jaw.rotation", 0) == [20.0]
 
 
+def test_minus_zero_never_comes_out():
+    values = Timeline((Layer("a", "replace", {"head.turn": hold(-0.0)}),), 1).values([0.0], TABLE)
+    assert not np.signbit(values).any()
+
+
 def test_no_nan_from_many_huge_factors():
     layers = [Layer(f"m{k}", "multiply", {"mouth.width": hold(1e9)}) for k in range(60)]
     layers.append(Layer("zero", "multiply", {"mouth.width": hold(0.0)}))
