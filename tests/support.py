@@ -18,14 +18,18 @@ def face(name: str) -> Face:
 
 
 def poses(table: ParameterTable) -> st.SearchStrategy[Pose]:
-    """Any pose of a table; ends of ranges and defaults come up often."""
-    share = st.one_of(st.none(), st.sampled_from([0.0, 1.0]), st.floats(0.0, 1.0))
-    return st.lists(share, min_size=len(table), max_size=len(table)).map(lambda shares: _pose(table, shares))
+    """Any pose of a table: some rows moved, or all of them, many to an end of their range."""
+    return st.one_of(_some_rows(table), st.integers(0, 2**32 - 1).map(lambda seed: _all_rows(table, seed)))
 
 
-def _pose(table: ParameterTable, shares: list[float | None]) -> Pose:
-    values = [
-        row.default if share is None else row.low * (1.0 - share) + row.high * share
-        for row, share in zip(table, shares, strict=True)
-    ]
-    return Pose(table, np.array(values)).clamped()
+def _some_rows(table: ParameterTable) -> st.SearchStrategy[Pose]:
+    if not len(table):
+        return st.just(Pose.neutral(table))
+    row = st.sampled_from(table.rows).flatmap(lambda row: st.tuples(st.just(row.name), st.floats(row.low, row.high)))
+    return st.lists(row, max_size=6).map(lambda changes: Pose.neutral(table).replace(dict(changes)))
+
+
+def _all_rows(table: ParameterTable, seed: int) -> Pose:
+    generator = np.random.default_rng(seed)
+    share = np.clip(generator.uniform(-0.3, 1.3, len(table)), 0.0, 1.0)
+    return Pose(table, table.lows * (1.0 - share) + table.highs * share).clamped()
