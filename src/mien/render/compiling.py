@@ -20,7 +20,7 @@ from typing import Any
 
 Report = Callable[[str], None]
 
-MESSAGE = "compiling the rasteriser, once, a few seconds"
+MESSAGE = "compiling the rasteriser, once, about ten seconds"
 
 _lock = threading.Lock()
 _report: list[Report] = []

@@ -56,8 +56,7 @@ def set_up(places, inverse, corners, colors, color_of, first, last, edges, plane
 
 @compiled
 def count_bands(edges, height, band_rows, counts):
-    """Triangles in each band, as places in one list: band b has entries ``counts[b]:counts[b + 1]``."""
-    counts[:] = 0
+    """Turn zeros into places in one list of triangles: band b has its entries ``counts[b]:counts[b + 1]``."""
     for t in range(len(edges)):
         top, end = max(edges[t, 0], 0), min(edges[t, 2], height)
         if top < end:
@@ -137,6 +136,19 @@ def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, r
                 blue[i] = (b0 + db * step) * scale
 
 
+# Loops where a slice could be assigned: Numba takes ten times as long to compile an assignment to a slice.
+@compiled
+def _fill(values, value):
+    for x in range(len(values)):
+        values[x] = value
+
+
+@compiled
+def _copy(values, out):
+    for x in range(len(out)):
+        out[x] = values[x]
+
+
 @compiled
 def _show_behind(depth, color, behind):
     for x in range(len(color)):
@@ -202,9 +214,9 @@ def _resolve_row(rows, row, n, first, last, behind, low, borders, means, codes, 
         if n == 2:
             _average(plane[row, first * 2 : last * 2], plane[row + 1, first * 2 : last * 2], means[v, :count])
         else:
-            means[v, :count] = plane[row, first:last]
+            _copy(plane[row, first:last], means[v, :count])
     if opaque:
-        codes[3, :count] = 255
+        _fill(codes[3, :count], 255)
     else:
         for v in range(3):
             _divide(means[v, :count], means[3, :count])
@@ -228,9 +240,9 @@ def draw_bands(
     green, blue = rows[2].reshape(-1), rows[3].reshape(-1)
     for b in range(start, len(counts) - 1, stride):
         top, end = b * band_rows, min((b + 1) * band_rows, height)
-        depth[:] = np.float32(0.0)
-        reach[:, 0] = width
-        reach[:, 1] = 0
+        _fill(depth, 0.0)
+        for row in range(band_rows):
+            reach[row, 0], reach[row, 1] = width, 0
         for m in range(counts[b], counts[b + 1]):
             _draw_triangle(edges, planes, members[m], top, end, width, depth, red, green, blue, reach)
         for y in range(top // n, end // n):
@@ -239,8 +251,8 @@ def draw_bands(
             if n == 2:
                 first, last = min(first, reach[row + 1, 0]) // 2, (max(last, reach[row + 1, 1]) + 1) // 2
             if first >= last:
-                out[y] = plain[y]
+                _fill(out[y], plain[y])
                 continue
-            out[y, :first] = plain[y]
-            out[y, last:] = plain[y]
+            _fill(out[y, :first], plain[y])
+            _fill(out[y, last:], plain[y])
             _resolve_row(rows, row, n, first, last, behind[y], low, borders, means, codes, out[y])
