@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from os import PathLike, fspath
 from pathlib import Path
@@ -177,13 +177,20 @@ def say(
     return perform(speech, face, seed=seed, style=style, emotion=emotion, pose=pose, scene=scene)
 
 
-def play(path: Path | str, face: Face | str | None = None, *, fps: float | None = None) -> Performance:
+def play(
+    path: Path | str,
+    face: Face | str | None = None,
+    *,
+    fps: float | None = None,
+    report: Callable[[str], None] | None = None,
+) -> Performance:
     """The performance in a ``.json``, ``.csv`` or ``.spec`` file, with its sound if it has one.
 
     Args:
         path: the file.
         face: who plays it; None is the face it was made for, or the head.
         fps: what a column ``frame`` of a CSV file counts in.
+        report: told when the face is no longer the one that the file was made with.
 
     Raises:
         LoadError: the file cannot be understood, or does not fit the face.
@@ -195,6 +202,8 @@ def play(path: Path | str, face: Face | str | None = None, *, fps: float | None 
         return face if face is not None and not isinstance(face, str) else load_face(address)
 
     stored = read_timeline(path, find, face if isinstance(face, str) else None, fps=fps)
+    if report and face is None and not stored.same_table:
+        report(f"{path}: made with another version of {stored.face.name!r}; frames may differ from those of then")
     return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene())
 
 

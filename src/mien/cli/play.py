@@ -64,7 +64,8 @@ def play(
         check_file(plot)
     if out is not None:
         check_performance(out)
-    performance = api.play(timeline, face, fps=fps)
+    stages = Stages(quiet)
+    performance = api.play(timeline, face, fps=fps, report=stages.say)
     scene = settings.make_scene(
         performance.scene,
         size=size,
@@ -87,7 +88,6 @@ def play(
 
         for line in format_commands(command_list(performance.timeline, performance.face.parameters, rate)):
             typer.echo(line)
-    stages = Stages(quiet)
     if plot is not None:
         from mien.formats.plot import plot_timeline
 

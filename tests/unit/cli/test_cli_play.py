@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mien import load_face
 from mien.cli import main
 
 SMALL = ["--size", "48", "--subdivide", "0", "--quiet"]
@@ -62,6 +63,17 @@ def test_frames_after_a_pattern_and_the_same_from_json() -> None:
     for number in range(6):
         np.testing.assert_array_equal(pixels(f"a_{number:02d}.png"), pixels(f"b_{number:02d}.png"))
     assert np.abs(pixels("a_00.png") - pixels("a_05.png")).max() > 50
+
+
+def test_a_timeline_of_an_older_head_plays_and_says_so(capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["play", "nod.spec", *SMALL, "-o", "nod.json"]) == 0
+    assert main(["play", "nod.json", "-o", "a.csv"]) == 0
+    assert "another version" not in capfd.readouterr().err
+    table = load_face("head").parameters.fingerprint
+    Path("nod.json").write_text(Path("nod.json").read_text().replace(table, "0" * 12))
+    assert main(["play", "nod.json", "-o", "b.csv"]) == 0
+    assert "nod.json: made with another version of 'head'" in capfd.readouterr().err
+    assert Path("a.csv").read_text() == Path("b.csv").read_text()
 
 
 def test_settings_lie_beneath_what_moves() -> None:
