@@ -40,8 +40,8 @@ def eye_pixels(face, opening, views=VIEWS, subdivide=2):
 
 
 def test_rings_lie_where_figure_3_2_puts_them():
-    pose = REST.replace({"iris.size": 0.6, "pupil.size": 0.28, "fringe.size": 0.0})
-    pupil, iris, fringe, middle, edge, *_ = eyes.ring_radii(pose)
+    eye = eyes.Eye(np.zeros(3), 1.0, AHEAD, iris=0.6, pupil=0.28, fringe=0.0)
+    pupil, iris, fringe, middle, edge, *_ = eyes.ring_radii(eye)
     assert pupil == pytest.approx((0.96, 0.28))
     assert iris == pytest.approx((0.8, 0.6))
     phi = math.asin(fringe[1])
@@ -51,7 +51,7 @@ def test_rings_lie_where_figure_3_2_puts_them():
 
 
 def test_a_pupil_larger_than_the_iris_stays_inside_it():
-    pupil, iris, *_ = eyes.ring_radii(REST.replace({"pupil.size": 1.0, "iris.size": 0.3}))
+    pupil, iris, *_ = eyes.ring_radii(eyes.Eye(np.zeros(3), 1.0, AHEAD, iris=0.3, pupil=1.0))
     assert pupil[1] < iris[1]
 
 
@@ -60,6 +60,12 @@ def test_the_lens_centre_solves_appendix_a():
     for iris in (0.1, 0.39, 0.7):
         assert iris**2 + (iris + eyes.lens_centre(iris)) ** 2 == pytest.approx(1.0)
     assert eyes.lens_centre(0.75) < 0.0
+
+
+def test_each_eye_has_sizes_of_its_own():
+    one = HEAD.shape(REST.replace({"pupil.size.left": 0.3})).points - HEAD.shape(REST).points
+    assert np.abs(one[HEAD._layout.span["eye.left"]]).max() > 0.001
+    assert np.abs(one[HEAD._layout.span["eye.right"]]).max() == 0.0
 
 
 def test_eyes_look_at_a_target_each_by_itself():
@@ -90,7 +96,7 @@ def test_added_turn_and_nod_are_degrees():
 def test_the_spot_halves_the_angle_between_light_and_viewer():
     eye = eyes.Eye(np.zeros(3), 1.0, AHEAD)
     far = 1e6
-    direction, shown = eyes.spot_direction(eye, 0.39, np.array([far, 0.0, far]), np.array([0.0, 0.0, far]))
+    direction, shown = eyes.spot_direction(eye, np.array([far, 0.0, far]), np.array([0.0, 0.0, far]))
     bulge, radius = eyes.lens_centre(0.39), 0.39 * math.sqrt(2.0)
     half = math.radians(22.5)
     expected = np.array([radius * math.sin(half), 0.0, bulge + radius * math.cos(half)])
@@ -101,15 +107,15 @@ def test_the_spot_halves_the_angle_between_light_and_viewer():
 def test_the_spot_follows_light_and_viewer():
     light, viewer = np.array([-1.0, 1.0, 2.0]), np.array([0.0, 0.0, 1.0])
     eye = eyes.Eye(np.zeros(3), 0.012, AHEAD)
-    first = eyes.spot_points(eye, REST, light, viewer).mean(axis=0)
-    assert eyes.spot_points(eye, REST, light * [-1, 1, 1], viewer).mean(axis=0)[0] == pytest.approx(-first[0])
-    assert eyes.spot_points(eye, REST, light, viewer + np.array([0.5, 0.0, 0.0])).mean(axis=0)[0] > first[0]
+    first = eyes.spot_points(eye, light, viewer).mean(axis=0)
+    assert eyes.spot_points(eye, light * [-1, 1, 1], viewer).mean(axis=0)[0] == pytest.approx(-first[0])
+    assert eyes.spot_points(eye, light, viewer + np.array([0.5, 0.0, 0.0])).mean(axis=0)[0] > first[0]
 
 
 def test_a_light_behind_the_head_is_reflected_nowhere_and_breaks_nothing():
     eye = eyes.Eye(np.zeros(3), 0.012, AHEAD)
     for light in ((0.0, 0.0, -3.0), (1e-9, 0.0, -3.0), (-1e-9, 0.0, -3.0), (0.0, -5.0, -3.0)):
-        points = eyes.spot_points(eye, REST, np.array(light), np.array([0.0, 0.0, 1.0]))
+        points = eyes.spot_points(eye, np.array(light), np.array([0.0, 0.0, 1.0]))
         assert np.isfinite(points).all()
         assert np.ptp(points, axis=0).max() < 0.012 * 0.01
 

@@ -1,13 +1,16 @@
 """The jaw and the lips: known answers, contact, regions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from mien.core import Pose, subdivide
+from mien.core import Pose, Scene, subdivide
 from mien.faces import load_face
 from mien.faces.head.jaw import parke_shares, rotate_jaw
 from mien.faces.head.measured import archive
 from mien.faces.head.mouth import CONTACT_PAIRS, mouth_regions
+from mien.render import draw
 
 HEAD = load_face("head")
 REST = Pose.neutral(HEAD.parameters)
@@ -75,6 +78,28 @@ def test_closure_shuts_the_lips_whatever_the_jaw_does(jaw, more):
     assert lip_gap_mm({"jaw.rotation": jaw, "mouth.closure": 1, **more}) < rest + 0.35
     if jaw >= 3:
         assert lip_gap_mm({"jaw.rotation": jaw, **more}) > 3.0
+
+
+INSIDE = {
+    f"{part}.color.{channel}": value
+    for part in ("tooth", "gum", "tongue", "cavity")
+    for channel, value in (("red", 0.0), ("green", 1.0), ("blue", 0.0))
+}
+
+
+@pytest.mark.parametrize(("yaw", "pitch"), [(0, 0), (22, 3), (45, 0), (0, -15)])
+@pytest.mark.parametrize(
+    "values", [{"jaw.rotation": 4}, {"jaw.rotation": 10}, {"jaw.rotation": 5, "mouth.pucker": 0.5}]
+)
+def test_nothing_of_the_mouth_shows_between_shut_lips(yaw, pitch, values):
+    scene = replace(Scene(size_px=(300, 220)), at=(0.0, -0.067, 0.08)).turned(yaw, pitch, 0.3)
+
+    def seen(more):
+        pixels = draw(HEAD, REST.replace({**INSIDE, **values, **more}), scene).astype(int)
+        return int(((pixels[..., 1] > pixels[..., 0] + 25) & (pixels[..., 1] > pixels[..., 2] + 25)).sum())
+
+    assert seen({"mouth.closure": 1}) == 0
+    assert seen({}) > 50
 
 
 def test_a_full_tuck_brings_the_lower_lip_under_the_upper_front_teeth():

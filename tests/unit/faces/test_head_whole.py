@@ -115,7 +115,7 @@ def write(path, **record):
 def test_a_face_file_makes_a_person(tmp_path):
     path = write(tmp_path / "x.face.json", hair="bob", palette="olive", values={"iris.size": 0.5, "eyebrow.arch": 0.4})
     face = load_face(path)
-    assert Pose.neutral(face.parameters)["iris.size"] == 0.5
+    assert Pose.neutral(face.parameters)["iris.size.left"] == 0.5
     assert Pose.neutral(face.parameters)["eyebrow.arch.right"] == 0.4
 
 

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from mien.core import Pose, exact
+from mien.core import exact
 from mien.core.mesh import Ints, Points
 
 from .measured import Floats
@@ -39,11 +39,22 @@ BANDS = ("iris", "fringe", "white", "white", "back", "back")
 
 @dataclass(frozen=True)
 class Eye:
-    """One eye in the head: centre (3,) m, radius m, and where it looks (unit vector)."""
+    """One eye in the head.
+
+    Attributes:
+        centre: (3,) m.
+        radius: m.
+        forward: (3,) unit vector, where it looks.
+        iris, pupil, spot: radii as shares of the eyeball's; fringe: as a share of the iris's.
+    """
 
     centre: Floats
     radius: float
     forward: Floats
+    iris: float = 0.39
+    pupil: float = 0.156
+    fringe: float = 0.12
+    spot: float = 0.058
 
 
 def normalised(vector: Floats) -> Floats:
@@ -85,7 +96,7 @@ def lens_centre(iris: float) -> float:
     return float(np.sqrt(1.0 - iris * iris)) - iris
 
 
-def spot_direction(eye: Eye, iris: float, light: Floats, viewer: Floats) -> tuple[Floats, float]:
+def spot_direction(eye: Eye, light: Floats, viewer: Floats) -> tuple[Floats, float]:
     """Unit vector from the eye's centre to the reflection spot, and how much of the spot is on the lens (0..1).
 
     The spot lies on the lens where its normal halves the angle between light and viewer. The lens meets the ball
@@ -94,6 +105,7 @@ def spot_direction(eye: Eye, iris: float, light: Floats, viewer: Floats) -> tupl
 
     Source: Parke 1974, Appendix A, with the directions averaged instead of the angles.
     """
+    iris = _iris(eye)
     bulge = lens_centre(iris)
     centre, radius = (bulge, iris * float(np.sqrt(2.0))) if bulge > 0.0 else (0.0, 1.0)
     lens = eye.centre + eye.radius * centre * eye.forward
@@ -103,6 +115,11 @@ def spot_direction(eye: Eye, iris: float, light: Floats, viewer: Floats) -> tupl
     on_lens, lit = (_dot(half, eye.forward) - 0.62) / 0.12, (_dot(half, to_light) - 0.15) / 0.15
     shown = min(max(min(on_lens, lit), 0.0), 1.0)
     return normalised(centre * eye.forward + radius * half), shown
+
+
+def _iris(eye: Eye) -> float:
+    """The iris without the ends of its range, at which rings would have no width."""
+    return min(max(eye.iris, 0.02), 0.95)
 
 
 @lru_cache(maxsize=4)
@@ -126,21 +143,21 @@ def _steps(band: str, sides: int) -> int:
     return 1 if sides == CLASSIC else {"iris": 4, "fringe": 1, "white": 2, "back": 1}[band]
 
 
-def ring_radii(pose: Pose) -> tuple[tuple[float, float], ...]:
+def ring_radii(eye: Eye) -> tuple[tuple[float, float], ...]:
     """(cosine, sine) of the polar angle of each ring, from the pupil's edge to the back.
 
     Source: Parke 1974, figure 3.2: x_i = sqrt(R_e^2 - R_i^2); the white's middle ring halves the rest.
     """
-    iris = min(max(pose["iris.size"], 0.02), 0.95)
-    pupil = min(max(pose["pupil.size"], 0.01), 0.96 * iris)
-    fringe = min(iris * (1.0 + max(pose["fringe.size"], 0.01)), 0.97)
+    iris = _iris(eye)
+    pupil = min(max(eye.pupil, 0.01), 0.96 * iris)
+    fringe = min(iris * (1.0 + max(eye.fringe, 0.01)), 0.97)
     front = tuple((float(np.sqrt(1.0 - r * r)), r) for r in (pupil, iris, fringe))
     # Polar angle (phi + pi/2)/2 by the half-angle formulas, with cos(phi + pi/2) = -sin(phi).
     middle = (float(np.sqrt(0.5 * (1.0 - fringe))), float(np.sqrt(0.5 * (1.0 + fringe))))
     return (*front, middle, (0.0, 1.0), *BACK_COS_SIN)
 
 
-def eye_points(eye: Eye, pose: Pose, sides: int) -> tuple[Points, Points]:
+def eye_points(eye: Eye, sides: int) -> tuple[Points, Points]:
     """(N, 3) m points and (N, 3) normals of one eyeball: pupil first, then each band's rings with its own vertices."""
     forward = eye.forward
     right = normalised(np.array([forward[2], 0.0, -forward[0]]))
@@ -153,7 +170,7 @@ def eye_points(eye: Eye, pose: Pose, sides: int) -> tuple[Points, Points]:
     )
     around = _circle(sides)
     spokes = around[0][:, None] * right + around[1][:, None] * up
-    radii = ring_radii(pose)
+    radii = ring_radii(eye)
     rings = [radii[0]]
     for number, band in enumerate(BANDS):
         steps = _steps(band, sides)
@@ -167,10 +184,9 @@ def eye_points(eye: Eye, pose: Pose, sides: int) -> tuple[Points, Points]:
     return eye.centre + eye.radius * normals, normals
 
 
-def spot_points(eye: Eye, pose: Pose, light: Floats, viewer: Floats) -> Points:
+def spot_points(eye: Eye, light: Floats, viewer: Floats) -> Points:
     """(6, 3) m, the reflection spot: a hexagon on the eye where the light is mirrored to the viewer."""
-    iris = min(max(pose["iris.size"], 0.02), 0.95)
-    direction, shown = spot_direction(eye, iris, light, viewer)
+    direction, shown = spot_direction(eye, light, viewer)
     aside = normalised(np.array([direction[2], 0.0, -direction[0]]))
     above = np.array(
         [
@@ -179,7 +195,7 @@ def spot_points(eye: Eye, pose: Pose, light: Floats, viewer: Floats) -> Points:
             direction[0] * aside[1] - direction[1] * aside[0],
         ]
     )
-    size = max(pose["spot.size"] * shown, 1e-3)
+    size = max(eye.spot * shown, 1e-3)
     x, y = _circle(SPOT_SIDES)
     flat = direction + size * (x[:, None] * aside + y[:, None] * above)
     return eye.centre + eye.radius * SPOT_LIFT * flat

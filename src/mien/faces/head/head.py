@@ -99,10 +99,10 @@ class Head:
         rounded: dict[str, Points] = {}
         light, viewer = self._room(pose, ("light", "viewer"), angles)
         for side, ball in balls.items():
-            points, directions = eyes.eye_points(ball, pose, self._sides)
+            points, directions = eyes.eye_points(ball, self._sides)
             parts[f"eye.{side}"] = turn_head(points, angles)
             rounded[f"eye.{side}"] = turn_direction(directions, angles)
-            parts[f"spot.{side}"] = turn_head(eyes.spot_points(ball, pose, light, viewer), angles)
+            parts[f"spot.{side}"] = turn_head(eyes.spot_points(ball, light, viewer), angles)
             parts[f"caruncle.{side}"] = turn_head(caruncle(skin, ball, side, self._archive), angles)
             parts[f"lash.{side}"] = turn_head(lash_points(self._lashes, skin, ball, side), angles)
         left, right = np.split(brows.place_brows(self._strips, skin, normals), 2)
@@ -156,7 +156,8 @@ class Head:
             centre = centres[number]
             kappa = 0.0 if self.parke_jaw else (eyes.KAPPA_DEG if side == "left" else -eyes.KAPPA_DEG)
             forward = eyes.look_at(centre, target, pose[f"eye.turn.{side}"] + kappa, pose[f"eye.nod.{side}"])
-            out[side] = eyes.Eye(centre, radius, forward)
+            sizes = (pose[f"{ring}.size.{side}"] for ring in ("iris", "pupil", "fringe", "spot"))
+            out[side] = eyes.Eye(centre, radius, forward, *sizes)
         return out
 
     @staticmethod

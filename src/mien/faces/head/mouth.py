@@ -32,6 +32,12 @@ TUCK_STATIONS = {6: 0.35, 7: 0.8, 8: 1.0, 9: 1.0}
 TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
 CONTACT_RINGS = {"mj": 0.3, "mi": 1.0, "m0": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
 CONTACT_PAIRS = ((0, 9), (1, 8), (2, 7), (3, 6), (4, 6))
+OVERLAP_M = (0.0001, 0.0001, 0.0002, 0.0008, 0.0014)
+"""How much the pairs pass one another over an open jaw: near the corner the bridge alone leaves a slit."""
+
+OVERLAP_FROM = 0.25
+"""Share of the measured open mouth from which on they pass one another fully."""
+
 UPPER_PART = 0.35
 """Share of a gap between the lips that the upper lip closes; the lower lip does the rest."""
 
@@ -155,8 +161,10 @@ def close_lips(points: Points, pose: Pose, jaw_opening: float, regions: MouthReg
         return points
     out = points + (amount * jaw_opening) * measured.morphs["mouthClose"]
     moves = np.zeros_like(out)
-    for rest, (upper, lower, up_share, low_share) in zip(regions.rest_gap, regions.contact, strict=True):
-        gap = out[lower[0]] - out[upper[0]] - rest
+    pressed = min(jaw_opening / OVERLAP_FROM, 1.0)
+    for number, (upper, lower, up_share, low_share) in enumerate(regions.contact):
+        gap = out[lower[0]] - out[upper[0]] - regions.rest_gap[number]
+        gap[1] -= pressed * OVERLAP_M[number % len(CONTACT_PAIRS)]
         lower_part = 1.0 - UPPER_PART if low_share.any() else 0.0
         moves[upper] += (amount * (1.0 - lower_part)) * up_share[:, None] * gap
         moves[lower] -= (amount * lower_part) * low_share[:, None] * gap
