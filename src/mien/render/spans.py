@@ -13,6 +13,9 @@ import numpy as np
 
 from .kernels import compiled
 
+SLACK = 2.0**-33
+"""Less than any fraction that the place of an edge can have, more than rounding can add to it."""
+
 
 @compiled
 def set_up(places, inverse, corners, colors, color_of, first, last, edges, planes):
@@ -79,23 +82,29 @@ def sort_bands(edges, height, band_rows, counts, members):
 
 
 @compiled
-def _first_centre(numerator, denominator):
-    # Both are whole numbers below 2^53, and the quotient is far from any whole number that it does not equal:
-    # rounding cannot carry it across, so this is exact.
-    quotient = numerator / denominator
-    whole = int(quotient)
-    return whole + 1 if quotient > whole else whole
+def _first_centre(ax, ay, across, inverse, centre):
+    """First column whose centre, in the row of that centre, is not left of an edge through a; exact.
+
+    The quotient is q = ((ax - 128) down + (centre - ay) across) / (256 down), all of them whole numbers whose
+    products stay below 2^53; ``across`` is the edge's own, ``inverse`` is 1 / (256 down). |q| < 2^15, so that the
+    product below is wrong by less than 2^-35; yet a q that is not whole is at least 2^-31 away from one that is.
+    """
+    return int(np.ceil((centre - ay) * across * inverse + (ax - 128.0) * (1.0 / 256.0) - SLACK))
 
 
 @compiled
-def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, reach):
-    """Draw rows top:end of triangle t; ``reach`` (rows, 2) keeps the columns that were touched.
+def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue):
+    """Draw rows top:end of triangle t.
 
-    The sample planes are flat here and their places unsigned: Numba then drops its test for negative indices, and
-    only so does the loop over a span become vector code.
+    The sample planes are flat here and their places unsigned: Numba then drops its test for negative indices.
     """
-    ax, ay, bx = edges[t, 4], edges[t, 5], edges[t, 6]
-    by, cx, cy = edges[t, 7], edges[t, 8], edges[t, 9]
+    ax, ay, bx = float(edges[t, 4]), float(edges[t, 5]), float(edges[t, 6])
+    by, cx, cy = float(edges[t, 7]), float(edges[t, 8]), float(edges[t, 9])
+    long_inverse, upper_inverse, lower_inverse = 1.0 / (256.0 * (cy - ay)), 0.0, 0.0
+    if by > ay:
+        upper_inverse = 1.0 / (256.0 * (by - ay))
+    if cy > by:
+        lower_inverse = 1.0 / (256.0 * (cy - by))
     long_right = edges[t, 3] == 1
     middle = edges[t, 1]
     one = np.float32(1.0)
@@ -107,22 +116,20 @@ def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue, r
     dz, dr = np.float32(zx * 256.0), np.float32(rx * 256.0)
     dg, db = np.float32(gx * 256.0), np.float32(bx_ * 256.0)
     for y in range(max(edges[t, 0], top), min(edges[t, 2], end)):
-        centre = y * 256 + 128
-        far = _first_centre(float((ax - 128) * (cy - ay) + (centre - ay) * (cx - ax)), float(256 * (cy - ay)))
+        centre = float(y * 256 + 128)
+        far = _first_centre(ax, ay, cx - ax, long_inverse, centre)
         if y < middle:
-            near = _first_centre(float((ax - 128) * (by - ay) + (centre - ay) * (bx - ax)), float(256 * (by - ay)))
+            near = _first_centre(ax, ay, bx - ax, upper_inverse, centre)
         else:
-            near = _first_centre(float((bx - 128) * (cy - by) + (centre - by) * (cx - bx)), float(256 * (cy - by)))
+            near = _first_centre(bx, by, cx - bx, lower_inverse, centre)
         left, right = (near, far) if long_right else (far, near)
         left, right = max(left, 0), min(right, width)
         if left >= right:
             continue
-        dx, dy = float(left * 256 + 128) - origin_x, float(centre) - origin_y
+        dx, dy = float(left * 256 + 128) - origin_x, centre - origin_y
         z0, r0 = np.float32((zv + zy * dy) + zx * dx), np.float32((rv + ry * dy) + rx * dx)
         g0, b0 = np.float32((gv + gy * dy) + gx * dx), np.float32((bv + by_ * dy) + bx_ * dx)
         row = y - top
-        reach[row, 0] = min(reach[row, 0], left)
-        reach[row, 1] = max(reach[row, 1], right)
         first = np.uint64(row * width + left)
         for x in range(np.uint64(right - left)):
             i = first + np.uint64(x)
@@ -235,21 +242,21 @@ def draw_bands(
     ``rows`` (4, band_rows, W n), ``means`` (4, W) and ``codes`` (4, W) are this thread's own.
     """
     height, width = out.shape[0] * n, out.shape[1] * n
-    reach = np.empty((band_rows, 2), dtype=np.int64)
     depth, red = rows[0].reshape(-1), rows[1].reshape(-1)
     green, blue = rows[2].reshape(-1), rows[3].reshape(-1)
     for b in range(start, len(counts) - 1, stride):
         top, end = b * band_rows, min((b + 1) * band_rows, height)
         _fill(depth, 0.0)
-        for row in range(band_rows):
-            reach[row, 0], reach[row, 1] = width, 0
+        left, right = width << 8, 0
         for m in range(counts[b], counts[b + 1]):
-            _draw_triangle(edges, planes, members[m], top, end, width, depth, red, green, blue, reach)
+            t = members[m]
+            left = min(left, min(edges[t, 4], edges[t, 6], edges[t, 8]))
+            right = max(right, max(edges[t, 4], edges[t, 6], edges[t, 8]))
+            _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue)
+        # Pixels of this band that no triangle reaches are plain background.
+        first, last = max(left >> 8, 0) // n, (min((right >> 8) + 1, width) + n - 1) // n
         for y in range(top // n, end // n):
             row = y * n - top
-            first, last = reach[row, 0], reach[row, 1]
-            if n == 2:
-                first, last = min(first, reach[row + 1, 0]) // 2, (max(last, reach[row + 1, 1]) + 1) // 2
             if first >= last:
                 _fill(out[y], plain[y])
                 continue

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mien.core import Material, Mesh, Scene, build_topology
 from mien.render import draw_mesh
+from mien.render.compiling import load
 from mien.render.reference import coverage
 
 BOTH = pytest.mark.parametrize("rasteriser", ["compiled", "reference"])
@@ -137,3 +138,31 @@ def test_fan_of_slivers_leaves_no_crack() -> None:
     polygons = [[100, k, (k + 1) % 100] for k in range(100)]
     mesh = flat_mesh([*rim.tolist(), [0.3, 0.2, 0.0]], polygons)
     assert (draw_mesh(mesh, unit_scene(64))[..., 3] == 255).all()
+
+
+raster = st.integers(-2048, 2**23 + 2048)
+
+
+@settings(deadline=None, max_examples=400)
+@given(ax=raster, ay=raster, bx=raster, by=raster, data=st.data())
+def test_ends_of_compiled_spans_are_exact_in_the_largest_pictures(
+    ax: int, ay: int, bx: int, by: int, data: st.DataObject
+) -> None:
+    ay, by = min(ay, by), max(ay, by)
+    first, last = -((128 - ay) // 256), (by - 129) // 256
+    if first > last:
+        return
+    centre = data.draw(st.integers(first, last)) * 256 + 128
+    down = by - ay
+    wanted = -(-((ax - 128) * down + (centre - ay) * (bx - ax)) // (256 * down))
+    found = load()[1]._first_centre(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
+    assert found == wanted
+
+
+def test_ends_of_compiled_spans_on_a_centre_belong_to_the_pixel() -> None:
+    first_centre = load()[1]._first_centre
+    for down in (3, 7, 4093, 2**23 - 1):
+        for column in (0, 1, 16383, 32767):
+            x = column * 256 + 128
+            assert first_centre(float(x), 0.0, 0.0, 1.0 / (256.0 * down), 128.0) == column
+            assert first_centre(float(x + 1), 0.0, 0.0, 1.0 / (256.0 * down), 128.0) == column + 1
