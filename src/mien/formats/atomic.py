@@ -196,7 +196,9 @@ def _folder_place(path: Path, ours: tuple[str, ...]) -> Path:
 
 
 def _hidden(folder: Path, suffix: str) -> Path:
-    return folder / f".mien-{os.getpid()}-{next(_numbers)}.part{suffix}"
+    # A process that was killed may have left such a name, and its number may have come round again.
+    names = (folder / f".mien-{os.getpid()}-{number}.part{suffix}" for number in _numbers)
+    return next(name for name in names if not os.path.lexists(name))
 
 
 def _touch(temporary: Path, target: Path) -> None:

@@ -60,6 +60,14 @@ def test_a_new_file_obeys_the_umask_like_any_other(tmp_path: Path) -> None:
     assert (tmp_path / "a.txt").stat().st_mode == (tmp_path / "b.txt").stat().st_mode
 
 
+def test_what_a_killed_process_left_is_not_in_the_way(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mien.formats.atomic._numbers", iter(range(1, 9)))
+    (tmp_path / f".mien-{os.getpid()}-1.part.txt").write_text("half")
+    with writing(tmp_path / "a.txt") as temporary:
+        temporary.write_text("new")
+    assert (tmp_path / "a.txt").read_text() == "new"
+
+
 def test_a_link_is_followed(tmp_path: Path) -> None:
     real = tmp_path / "real.txt"
     real.write_text("old")
