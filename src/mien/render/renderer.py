@@ -31,7 +31,7 @@ BAND_ROWS = 16
 
 
 class Renderer:
-    """Draws frame after frame of one scene and keeps its threads and buffers in between.
+    """Draws frame after frame of one scene and keeps its threads and buffers in between: one frame at a time.
 
     Attributes:
         scene: what is drawn.
@@ -55,6 +55,7 @@ class Renderer:
         self._behind = background_rows(scene)
         self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
         self._rows: list[NDArray[np.float32]] = []
+        self._edges, self._planes = np.empty((0, 10), dtype=np.int64), np.empty((0, 5, 3))
 
     def __enter__(self) -> Renderer:
         return self
@@ -118,7 +119,11 @@ class Renderer:
         width, height = self.scene.size_px
         raster_height, n = self._camera.height, self._oversampling
         count = len(triangles.corners)
-        edges, planes = np.empty((count, 10), dtype=np.int64), np.empty((count, 5, 3))
+        if len(self._edges) < count:
+            # Some more than asked: the number of triangles that face the viewer changes from frame to frame.
+            room = count + count // 8
+            self._edges, self._planes = np.empty((room, 10), dtype=np.int64), np.empty((room, 5, 3))
+        edges, planes = self._edges[:count], self._planes[:count]
         soup = (triangles.places, triangles.inverse, triangles.corners, triangles.colors, triangles.color_of)
         self._share(spans.set_up, [(*soup, a, b, edges, planes) for a, b in self._parts(count)])
         counts = np.zeros(-(-raster_height // BAND_ROWS) + 1, dtype=np.int64)
