@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from types import TracebackType
@@ -158,10 +159,8 @@ class Renderer:
         )
         return picture.view(np.uint8).reshape(height, width, 4)
 
-    def _share(self, work: object, arguments: list[tuple[object, ...]]) -> None:
+    def _share(self, work: Callable[..., object], arguments: list[tuple[object, ...]]) -> None:
         """Do some compiled work once for each tuple, the first here and the others on the threads."""
-        if not callable(work):
-            raise TypeError(f"{work!r} is no function")
         others = [self._pool.submit(work, *rest) for rest in arguments[1:]] if self._pool is not None else []
         work(*arguments[0])
         for other in others:
