@@ -60,7 +60,12 @@ def smooth_tragus(head: dict[str, np.ndarray]) -> None:
             for ring in "cdefg":
                 for station in (0, 1, 2, 3):
                     inner, outer = rings[rings.index(ring) - 1], rings[rings.index(ring) + 1]
-                    around = [(ring, (station - 1) % 12), (ring, (station + 1) % 12), (inner, station), (outer, station)]
+                    around = [
+                        (ring, (station - 1) % 12),
+                        (ring, (station + 1) % 12),
+                        (inner, station),
+                        (outer, station),
+                    ]
                     mean = np.mean([points[vertex[name]] for name in around], axis=0)
                     share = 0.5 if station in (1, 2) else 0.25
                     moved[vertex[ring, station]] = (1.0 - share) * points[vertex[ring, station]] + share * mean

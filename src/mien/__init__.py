@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         UnknownNameError,
     )
     from .formats.picture import Picture
+    from .formats.sheet import contact_sheet
     from .perform import Performance, Style
     from .speech import Speech
     from .timeline import Layer, Timeline, Track
@@ -56,6 +57,7 @@ __all__ = [
     "Track",
     "UnknownNameError",
     "__version__",
+    "contact_sheet",
     "draw",
     "face_names",
     "load_face",
@@ -69,6 +71,7 @@ __all__ = [
 _HOMES = {
     "mien.api": ("draw", "face_names", "load_face", "perform", "play", "say", "speak", "voices"),
     "mien.formats.picture": ("Picture",),
+    "mien.formats.sheet": ("contact_sheet",),
     "mien.perform": ("Performance", "Style"),
     "mien.speech": ("Speech",),
     "mien.timeline": ("Layer", "Timeline", "Track"),

@@ -32,26 +32,46 @@ def _polynomial(coefficients: list[float], x: NDArray[np.float64]) -> NDArray[np
     return total
 
 
-def _sin_cos(angle: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def sin_cos(angle: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Sine and cosine of angles in radians, any shape."""
+    if np.ndim(angle) == 0:
+        one = _sin_cos_of_one(float(angle))  # type: ignore[arg-type]
+        return np.asarray(one[0]), np.asarray(one[1])
     x = np.asarray(angle, dtype=np.float64)
     turns = np.rint(x * (2.0 / math.pi))
     rest = (x - turns * _HALF_PI_HIGH) - turns * _HALF_PI_LOW
     square = rest * rest
-    sine, cosine = rest * _polynomial(_SIN, square), _polynomial(_COS, square)
+    sine, cosine = _polynomial(_SIN, square) * rest, _polynomial(_COS, square)
     quadrant = turns.astype(np.int64) & 3
     swap = (quadrant & 1) == 1
     s, c = np.where(swap, cosine, sine), np.where(swap, sine, cosine)
     return np.where(quadrant >= 2, -s, s), np.where((quadrant == 1) | (quadrant == 2), -c, c)
 
 
+def _sin_cos_of_one(x: float) -> tuple[float, float]:
+    """The same steps in plain floats: to the bit what the arrays give, and several times faster for one number."""
+    turns = float(round(x * (2.0 / math.pi)))
+    rest = (x - turns * _HALF_PI_HIGH) - turns * _HALF_PI_LOW
+    square = rest * rest
+    sine, cosine = _SIN[-1], _COS[-1]
+    for coefficient in _SIN[-2::-1]:
+        sine = sine * square + coefficient
+    for coefficient in _COS[-2::-1]:
+        cosine = cosine * square + coefficient
+    sine *= rest
+    quadrant = int(turns) & 3
+    s, c = (cosine, sine) if quadrant & 1 else (sine, cosine)
+    return -s if quadrant >= 2 else s, -c if quadrant in (1, 2) else c
+
+
 def sin(angle: ArrayLike) -> NDArray[np.float64]:
     """Sine of angles in radians, any shape."""
-    return _sin_cos(angle)[0]
+    return sin_cos(angle)[0]
 
 
 def cos(angle: ArrayLike) -> NDArray[np.float64]:
     """Cosine of angles in radians, any shape."""
-    return _sin_cos(angle)[1]
+    return sin_cos(angle)[1]
 
 
 def exp(x: ArrayLike) -> NDArray[np.float64]:

@@ -94,3 +94,10 @@ def test_the_same_bits_whatever_numpy_dispatches_to():
         digests.append(done.stdout.strip())
     assert len(digests[0]) == 64
     assert digests[0] == digests[1]
+
+
+def test_one_number_gives_the_bits_of_an_array():
+    angles = np.linspace(-30.0, 30.0, 4001)
+    sine, cosine = exact.sin_cos(angles)
+    for number, angle in enumerate(angles):
+        assert exact.sin_cos(float(angle)) == (sine[number], cosine[number])

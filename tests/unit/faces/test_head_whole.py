@@ -9,7 +9,7 @@ import pytest
 from mien.core import LoadError, MienError, Pose, RangeError, UnknownNameError
 from mien.faces import face_names, load_face
 from mien.faces.head.measured import archive
-from mien.faces.head.neck import turn_back, turn_head
+from mien.faces.head.neck import turn_back, turn_direction, turn_head
 
 HEAD = load_face("head")
 REST = Pose.neutral(HEAD.parameters)
@@ -47,13 +47,20 @@ def test_nod_looks_up_and_tilt_leans_to_the_own_left(name, axis, sign):
 def test_turning_back_undoes_turning():
     points = np.array([[0.1, 0.2, 0.3], [-1.0, 0.0, 2.0]])
     angles = (0.5, -0.2, 0.3)
-    np.testing.assert_allclose(turn_back(turn_head(points, angles), angles), points, atol=1e-12)
+    np.testing.assert_allclose(turn_back(turn_head(points, angles, np.ones(2)), angles), points, atol=1e-12)
 
 
 def test_a_quarter_turn_of_the_head_is_a_quarter_turn():
-    pivot = turn_head(np.zeros((1, 3)), (math.pi, 0.0, 0.0)) / 2
-    ahead = turn_head(np.array([[0.0, 0.0, 1.0]]) + pivot, (math.pi / 2, 0.0, 0.0)) - pivot
-    np.testing.assert_allclose(ahead, [[1.0, 0.0, 0.0]], atol=1e-12)
+    turned = turn_direction(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), (math.pi / 2, 0.0, 0.0))
+    np.testing.assert_allclose(turned, [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]], atol=1e-12)
+
+
+def test_the_neck_fades_into_the_rigid_head():
+    points = np.array([[0.05, -0.1, 0.08]] * 3)
+    angles = (0.4, 0.2, -0.1)
+    rigid, nearly, still = turn_head(points, angles, np.array([1.0, 1.0 - 1e-9, 0.0]))
+    np.testing.assert_allclose(rigid, nearly, atol=1e-8)
+    np.testing.assert_array_equal(still, points[0])
 
 
 def test_eyes_keep_to_their_target_while_the_head_turns():

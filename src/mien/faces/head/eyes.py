@@ -79,7 +79,7 @@ def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: floa
     if turn_deg or nod_deg:
         flat = float(np.sqrt(1.0 + x * x))
         turn, nod = turn_deg * DEG, nod_deg * DEG
-        sin_turn, cos_turn, sin_nod, cos_nod = (float(f(a)) for a in (turn, nod) for f in (exact.sin, exact.cos))
+        sin_turn, cos_turn, sin_nod, cos_nod = (float(f) for a in (turn, nod) for f in exact.sin_cos(a))
         ahead, aside = (cos_turn - x * sin_turn) / flat, (sin_turn + x * cos_turn) / flat
         length = float(np.sqrt(flat * flat + y * y))
         level_part, up_part = flat / length, y / length
@@ -205,7 +205,8 @@ def spot_points(eye: Eye, light: Floats, viewer: Floats) -> Points:
 def _circle(sides: int) -> tuple[Floats, Floats]:
     """Cosines and sines of a regular polygon's corners, anticlockwise, half a step off the horizontal."""
     angle = (np.arange(sides) + 0.5) * (360.0 / sides) * DEG
-    return exact.cos(angle), exact.sin(angle)
+    sine, cosine = exact.sin_cos(angle)
+    return cosine, sine
 
 
 @lru_cache(maxsize=8)

@@ -93,26 +93,21 @@ class Head:
         angles = head_angles(pose)
         balls = self._eyes(pose, angles)
         skin = self._skin(pose, balls)
-        inside = self._inside(pose)
-        normals = self._normals(skin)
-        parts: dict[str, Points] = {"skin": turn_head(skin, angles, self._neck_share)}
+        parts: dict[str, Points] = {"skin": skin, "collar": self._rest["collar"], "hair": self._rest["hair"]}
+        parts |= self._inside(pose)
         rounded: dict[str, Points] = {}
         light, viewer = self._room(pose, ("light", "viewer"), angles)
         for side, ball in balls.items():
-            points, directions = eyes.eye_points(ball, self._sides)
-            parts[f"eye.{side}"] = turn_head(points, angles)
+            parts[f"eye.{side}"], directions = eyes.eye_points(ball, self._sides)
             rounded[f"eye.{side}"] = turn_direction(directions, angles)
-            parts[f"spot.{side}"] = turn_head(eyes.spot_points(ball, light, viewer), angles)
-            parts[f"caruncle.{side}"] = turn_head(caruncle(skin, ball, side, self._archive), angles)
-            parts[f"lash.{side}"] = turn_head(lash_points(self._lashes, skin, ball, side), angles)
-        left, right = np.split(brows.place_brows(self._strips, skin, normals), 2)
-        parts["brow.left"], parts["brow.right"] = turn_head(left, angles), turn_head(right, angles)
-        for name, points in inside.items():
-            parts[name] = turn_head(points, angles)
-        parts["collar"] = self._rest["collar"]
-        parts["hair"] = turn_head(self._rest["hair"], angles)
+            parts[f"spot.{side}"] = eyes.spot_points(ball, light, viewer)
+            parts[f"caruncle.{side}"] = caruncle(skin, ball, side, self._archive)
+            parts[f"lash.{side}"] = lash_points(self._lashes, skin, ball, side)
+        strips = brows.place_brows(self._strips, skin, self._normals(skin))
+        parts["brow.left"], parts["brow.right"] = np.split(strips, 2)
         layout = self._layout
-        return Mesh(layout.topology, layout.join(parts), self._color(pose, parts, balls), layout.join(rounded))
+        points = turn_head(layout.join(parts), angles, self._neck_share)
+        return Mesh(layout.topology, points, self._color(pose, parts, balls), layout.join(rounded))
 
     # ---------------------------------------------------------------- steps
 
@@ -186,10 +181,8 @@ class Head:
             while len(self._colors) > 8:
                 self._colors.popitem(last=False)
         colors = self._colors[key].copy()
-        angles = head_angles(pose)
         for side, ball in balls.items():
-            points = turn_back(parts[f"eye.{side}"], angles)
-            colors[self._layout.span[f"eye.{side}"]] *= shades.lid_shadow(points, ball.centre)
+            colors[self._layout.span[f"eye.{side}"]] *= shades.lid_shadow(parts[f"eye.{side}"], ball.centre)
         return colors
 
     # ---------------------------------------------------------------- constants
@@ -235,7 +228,11 @@ class Head:
 
     @cached_property
     def _neck_share(self) -> Floats:
-        return neck_share(self._measured.points)
+        """(V,) of the whole head: the collar stays, all but the neck turns fully."""
+        share = np.ones(self.topology.vertex_count)
+        share[self._layout.span["skin"]] = neck_share(self._measured.points)
+        share[self._layout.span["collar"]] = 0.0
+        return share
 
     @cached_property
     def _jaw_axis(self) -> Floats:

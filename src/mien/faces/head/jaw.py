@@ -25,7 +25,7 @@ def rotate_jaw(points: Points, angle_deg: float, axis: Floats, share: Floats | f
     if not angle_deg:
         return points
     angle = (angle_deg * DEG) * np.asarray(share, dtype=np.float64)
-    cosine, sine = exact.cos(angle), exact.sin(angle)
+    sine, cosine = exact.sin_cos(angle)
     y, z = points[:, 1] - axis[0], points[:, 2] - axis[1]
     return np.stack([points[:, 0], axis[0] + y * cosine - z * sine, axis[1] + y * sine + z * cosine], axis=1)
 

@@ -56,5 +56,7 @@ def move_lids(points: Points, lids: Lids, closed: tuple[float, float], gaze_up_d
 
 
 def _on_sphere(azimuth: Floats, elevation: Floats, radius: Floats) -> Points:
-    flat = radius * exact.cos(elevation)
-    return np.stack([flat * exact.sin(azimuth), radius * exact.sin(elevation), flat * exact.cos(azimuth)], axis=1)
+    sin_up, cos_up = exact.sin_cos(elevation)
+    sin_around, cos_around = exact.sin_cos(azimuth)
+    flat = radius * cos_up
+    return np.stack([flat * sin_around, radius * sin_up, flat * cos_around], axis=1)

@@ -29,16 +29,19 @@ def head_angles(pose: Pose) -> tuple[float, float, float]:
     return pose["head.turn"] * DEG, pose["head.nod"] * DEG, pose["head.tilt"] * DEG
 
 
-def turn_head(points: Points, angles: tuple[float, float, float], share: Floats | float = 1.0) -> Points:
-    """Points (V, 3) m tilted, nodded, then turned about the neck's pivot, each by its share of the angles."""
+def turn_head(points: Points, angles: tuple[float, float, float], share: Floats) -> Points:
+    """Points (V, 3) m tilted, nodded, then turned about the neck's pivot, each by its share (V,) of the angles."""
     if not any(angles):
         return points
-    turn, nod, tilt = (angle * np.asarray(share, dtype=np.float64) for angle in angles)
-    x, y, z = (points - PIVOT).T
+    out = np.where((share >= 1.0)[:, None], turn_direction(points - PIVOT, angles) + PIVOT, points)
+    neck = np.flatnonzero((share > 0.0) & (share < 1.0))
+    turn, nod, tilt = (angle * share[neck] for angle in angles)
+    x, y, z = (points[neck] - PIVOT).T
     x, y = _rotate(x, y, -tilt)
     y, z = _rotate(y, z, -nod)
     z, x = _rotate(z, x, turn)
-    return np.stack([x, y, z], axis=1) + PIVOT
+    out[neck] = np.stack([x, y, z], axis=1) + PIVOT
+    return out
 
 
 def turn_back(point: Points, angles: tuple[float, float, float]) -> Points:
@@ -55,10 +58,22 @@ def turn_back(point: Points, angles: tuple[float, float, float]) -> Points:
 
 def turn_direction(directions: Points, angles: tuple[float, float, float]) -> Points:
     """(N, 3) directions turned with the head."""
-    return turn_head(directions + PIVOT, angles) - PIVOT
+    if not any(angles):
+        return directions
+    turn, nod, tilt = (np.asarray(angle) for angle in angles)
+    # Columns of the rotation are where its three steps take the axes.
+    axes = np.eye(3)
+    x, y, z = axes
+    x, y = _rotate(x, y, -tilt)
+    y, z = _rotate(y, z, -nod)
+    z, x = _rotate(z, x, turn)
+    rows = (x, y, z)
+    return np.stack(
+        [row[0] * directions[:, 0] + row[1] * directions[:, 1] + row[2] * directions[:, 2] for row in rows], axis=1
+    )
 
 
 def _rotate(a: Floats, b: Floats, angle: Floats) -> tuple[Floats, Floats]:
     """Coordinates turned from axis a towards axis b."""
-    cosine, sine = exact.cos(angle), exact.sin(angle)
+    sine, cosine = exact.sin_cos(angle)
     return a * cosine - b * sine, a * sine + b * cosine

@@ -24,7 +24,7 @@ WET = Material(gloss=0.035, gloss_power=20)
 TOOTH = Material(gloss=0.22, gloss_power=36)
 BROW = Material(gloss=0.015, gloss_power=10)
 LASH = Material(two_sided=True)
-CLOTH = Material(gloss=0.012, gloss_power=8)
+CLOTH = Material(gloss=0.012, gloss_power=8, subdivide=True)
 HAIR = {
     "afro": Material(gloss=0.015, gloss_power=8, two_sided=True),
     "crop": Material(gloss=0.06, gloss_power=20, two_sided=True),

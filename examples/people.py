@@ -1,0 +1,17 @@
+"""The people who ship: one measured face, hair as geometry, colours by palette."""
+
+# mien: docs = picture, test = compare
+import sys
+
+import mien
+
+
+def main(out: str = "people.jpg") -> None:
+    scene = mien.Scene(size_px=(290, 330)).turned(22, 3, 1.16)
+    names = [name for name, _ in mien.face_names() if "parke" not in name]
+    pictures = [mien.draw(name, {"mouth.expression": 0.75}, scene) for name in names]
+    mien.contact_sheet(pictures, 5, names).write(out)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
