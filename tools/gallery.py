@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 ORDER = (
-    "three_views", "shading", "expressions", "blink", "jaw", "filmstrip", "mouth", "gaze", "people", "one_light",
+    "hero", "three_views", "shading", "expressions", "blink", "jaw", "strip", "filmstrip", "mouth", "gaze", "people", "one_light",
 )  # fmt: skip
 
 

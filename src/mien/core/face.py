@@ -29,6 +29,7 @@ class Face(Protocol):
         name: its address, ``head`` or ``toon:gus``.
         family: which tables of names fit it (``data/<vocabulary>.<family>.csv``).
         parameters: its table.
+        neutral: the pose in which every parameter has its default.
         presets: expressions and palettes by name.
     """
 
@@ -38,6 +39,8 @@ class Face(Protocol):
     def family(self) -> str: ...  # noqa: D102
     @property
     def parameters(self) -> ParameterTable: ...  # noqa: D102
+    @property
+    def neutral(self) -> Pose: ...  # noqa: D102
     @property
     def presets(self) -> Mapping[str, Preset]: ...  # noqa: D102
     @property

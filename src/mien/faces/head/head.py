@@ -67,6 +67,11 @@ class Head:
         return head_table(tuple(sorted(self.values.items())))
 
     @cached_property
+    def neutral(self) -> Pose:
+        """The pose of this person at rest."""
+        return Pose.neutral(self.parameters)
+
+    @cached_property
     def presets(self) -> Mapping[str, Preset]:
         """Expressions and palettes by name."""
         return head_presets()
@@ -177,7 +182,7 @@ class Head:
     def _color(self, pose: Pose, parts: Mapping[str, Points], balls: Mapping[str, eyes.Eye]) -> Floats:
         key = shades.palette_key(pose)
         if key not in self._colors:
-            self._colors[key] = self._layout.join(self._layout.colors(pose))
+            self._colors[key] = np.clip(self._layout.join(self._layout.colors(pose)), 0.0, 1.0)
             while len(self._colors) > 8:
                 self._colors.popitem(last=False)
         colors = self._colors[key].copy()

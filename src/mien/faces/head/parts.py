@@ -18,7 +18,7 @@ from .lashes import CARUNCLE_QUADS, lashes
 from .measured import Archive, Floats
 
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
-EYE = Material(gloss=0.5, gloss_power=90, round=True)
+EYE = Material(gloss=0.1, gloss_power=60, round=True)
 SPOT = Material(lit=False)
 WET = Material(gloss=0.035, gloss_power=20)
 TOOTH = Material(gloss=0.22, gloss_power=36)
@@ -76,7 +76,7 @@ class Layout:
         corner = 0.5 * of("blush") + 0.5 * np.array([0.57, 0.147, 0.133])
         lash = lashes(archive)
         dark = np.tile(of("eyebrow") * 0.12, (len(lash.index[0]), 1))
-        dark[np.unique(lash.quads[lash.lower])] = 0.35 * of("eyebrow") + 0.3 * of("shade")
+        dark[np.unique(lash.quads[lash.lower])] = 0.12 * of("eyebrow") + 0.62 * of("shade")
         strip = brow_strips(archive, 0.0)
         brow = shades.brow_color(pose, strip.along, strip.across)
         for side in ("left", "right"):
