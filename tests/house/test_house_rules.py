@@ -15,7 +15,7 @@ TEXT_SUFFIXES = {".py", ".md", ".toml", ".csv", ".json", ".spec", ".txt", ".cff"
 LONGEST_FILE = 450
 
 # Paths that exist on one machine only, work left undone, and a licence that would be wrong here.
-UNWANTED = re.compile(r"(?<![\w.])/(?:home|root|Users|work)/\w|\bTODO\b|\bFIXME\b|\bXXX\b|NotImplementedError")
+UNWANTED = re.compile(r"(?<![\w.])/(?:home|root|Users|work)/\w|\bTODO\b|\bFIXME\b|\bXXX\b")
 
 
 def project_files():
@@ -42,15 +42,17 @@ def test_files_are_short_enough_to_read():
 def test_nothing_points_to_one_machine_or_is_left_undone():
     found = {}
     for path in project_files():
-        if path == Path(__file__):
-            continue
         match = UNWANTED.search(path.read_text(errors="replace"))
-        if match:
+        if match and path != Path(__file__):
             found[str(path.relative_to(ROOT))] = match.group()
     assert found == {}
 
 
-@pytest.mark.parametrize("text", ["/home/ann/x", "open('/root/y')", "# TODO: later", "raise NotImplementedError"])
+def test_no_function_of_ours_is_a_stub():
+    assert [str(path) for path in SOURCES if "NotImplementedError" in path.read_text()] == []
+
+
+@pytest.mark.parametrize("text", ["/home/ann/x", "open('/root/y')", "# TODO: later"])
 def test_the_search_for_unwanted_words_finds_them(text):
     assert UNWANTED.search(text)
 
