@@ -34,6 +34,7 @@ def test_it_is_a_face(name):
     assert isinstance(subject, Face)
     assert subject.name == name
     assert len(subject.parameters) > 0
+    assert subject.neutral == Pose.neutral(subject.parameters)
     assert subject.unsubdivided.parameters.names == subject.parameters.names
 
 

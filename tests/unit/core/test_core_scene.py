@@ -35,8 +35,16 @@ class ToyFace:
     presets: dict = field(default_factory=dict)
 
     @property
+    def neutral(self):
+        return Pose.neutral(self.parameters)
+
+    @property
     def unsubdivided(self):
         return self
+
+    @property
+    def neutral(self):
+        return Pose.neutral(self.parameters)
 
     def shape(self, pose):
         return Drawing((1.0, 1.0), ())
