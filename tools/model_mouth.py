@@ -97,11 +97,13 @@ def _tongue() -> dict[str, np.ndarray]:
     along = np.linspace(0.0, 1.0, TONGUE_RINGS)
     rows = np.stack([np.interp(along, np.linspace(0.0, 1.0, len(TONGUE)), column) for column in TONGUE.T], axis=1)
     angle = np.arange(TONGUE_SIDES) * 2.0 * np.pi / TONGUE_SIDES
+    twin = (TONGUE_SIDES // 2 - np.arange(TONGUE_SIDES)) % TONGUE_SIDES
     points = []
     for z, y, wide, high in rows:
         up = np.sin(angle)
         groove = GROOVE * high * np.exp(-((np.cos(angle) / 0.3) ** 2)) * (up > 0)
-        points.append(np.stack([wide * np.cos(angle), y + high * up - groove, np.full(TONGUE_SIDES, z)], axis=1))
+        ring = np.stack([wide * np.cos(angle), y + high * up - groove, np.full(TONGUE_SIDES, z)], axis=1)
+        points.append(0.5 * (ring + ring[twin] * FLIP))
     around = np.arange(TONGUE_SIDES)
     quads = [
         np.stack([a + around, a + (around + 1) % TONGUE_SIDES, b + (around + 1) % TONGUE_SIDES, b + around], axis=1)

@@ -25,7 +25,7 @@ CASES = {
     "asymmetric": ("head:tom", {"mouth.expression.left": 0.0, "eyebrow.arch.right": 0.0}, PLAIN),
     "polygons": ("head:parke1972", {}, Scene.parke(size_px=SIZE, subdivide=0, shading="polygon")),
     "gouraud": ("head:parke1974", {"jaw.rotation": 8}, Scene.parke(size_px=SIZE, subdivide=0)),
-    "wire": ("head:dalia", {}, Scene(size_px=SIZE, subdivide=1, shading="wire")),
+    "wire": ("head:parke1974", {}, Scene(size_px=SIZE, subdivide=0, shading="wire")),
     "transparent": ("head:kenji", "surprised", Scene(size_px=SIZE, background=((0, 0, 0, 0), (0, 0, 0, 0)))),
 }
 

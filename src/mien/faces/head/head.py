@@ -138,8 +138,10 @@ class Head:
 
     def _inside(self, pose: Pose) -> dict[str, Points]:
         angle, axis, layout = pose["jaw.rotation"], self._jaw_axis, self._layout
-        side = self._measured.morphs["jawLeft"][self._chin] * pose["jaw.side"]
-        shift = side + self._measured.morphs["jawForward"][self._chin] * pose["jaw.forward"]
+        chin = {name: self._measured.morphs[name][self._chin] for name in ("jawLeft", "jawRight", "jawForward")}
+        shift = add_sideways(
+            pose["jaw.forward"] * chin["jawForward"], pose["jaw.side"], chin["jawLeft"], chin["jawRight"]
+        )
         out = {}
         for name in ("teeth", "gums"):
             points = self._rest[name]
