@@ -46,7 +46,7 @@ def measure(face_name: str, size: int, threads: int, samples: int, repeats: int)
         triangles = make_triangles(fine, scene, camera, renderer._light)
         stages = {
             "shape": best_ms(lambda: face.shape(pose), repeats),
-            "subdivision": best_ms(lambda: subdivide(coarse, scene.subdivide), repeats),
+            "subdivision": best_ms(lambda: renderer.refine(coarse), repeats),
             "light": best_ms(lambda: renderer._light(fine, points, plan, scene), repeats),
             "view, clip": best_ms(lambda: make_triangles(fine, scene, camera, renderer._light), repeats),
             "raster, pixels": best_ms(lambda: renderer._rasterise(triangles), repeats),

@@ -9,6 +9,7 @@ edges: cubic B-spline curves; a vertex where one, or more than two, sharp edges 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -19,6 +20,7 @@ from .mesh import Mesh, Part, Topology
 from .sparse import SparseMatrix
 
 Ints = NDArray[np.int64]
+Multiply = Callable[[SparseMatrix, NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +32,19 @@ class Refinement:
     polygon_parent: Ints
 
 
-def subdivide(mesh: Mesh, levels: int) -> Mesh:
-    """The mesh with the parts that ask for it refined ``levels`` times; colours follow the same rules."""
+def subdivide(mesh: Mesh, levels: int, multiply: Multiply = SparseMatrix.apply) -> Mesh:
+    """The mesh with the parts that ask for it refined ``levels`` times; colours follow the same rules.
+
+    Args:
+        mesh: what to refine.
+        levels: how many times.
+        multiply: the product of a matrix and values (C, 3); a renderer brings a compiled one of the same bits.
+    """
     for _ in range(levels):
         fine = refine(mesh.topology)
-        colors = mesh.colors[fine.polygon_parent] if mesh.colored_by_polygon else fine.matrix.apply(mesh.colors)
+        colors = mesh.colors[fine.polygon_parent] if mesh.colored_by_polygon else multiply(fine.matrix, mesh.colors)
         normals = None if mesh.normals is None else _keep_rows(mesh.normals, fine.topology.vertex_count)
-        mesh = Mesh(fine.topology, fine.matrix.apply(mesh.points), colors, normals)
+        mesh = Mesh(fine.topology, multiply(fine.matrix, mesh.points), colors, normals)
     return mesh
 
 

@@ -63,14 +63,15 @@ def can_write(folder: Path) -> bool:
         return False
 
 
-def load() -> tuple[ModuleType, ModuleType]:
-    """The compiled modules ``lighting`` and ``spans``; the first call imports Numba, and reports if it must compile."""
+def load() -> tuple[ModuleType, ModuleType, ModuleType]:
+    """The compiled modules ``lighting``, ``spans`` and ``refining``; the first call imports Numba, and reports if it
+    must compile."""
     with _lock:
         if not _loaded:
             _loaded.extend(_import_compiled())
             if _report and any(is_cold(module) for module in _loaded):
                 _report[0](MESSAGE)
-        return _loaded[0], _loaded[1]
+        return _loaded[0], _loaded[1], _loaded[2]
 
 
 def _import_compiled() -> list[ModuleType]:
@@ -82,7 +83,7 @@ def _import_compiled() -> list[ModuleType]:
     # Numba looks at this when a function is decorated; what others compile later is none of our business.
     config.CACHE_DIR = str(folder)
     try:
-        return [import_module(f"mien.render.{name}") for name in ("lighting", "spans")]
+        return [import_module(f"mien.render.{name}") for name in ("lighting", "spans", "refining")]
     finally:
         config.CACHE_DIR = before
 

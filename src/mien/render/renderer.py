@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
+from mien.core.sparse import SparseMatrix
 
 from . import reference
 from .camera import Camera
@@ -78,7 +79,12 @@ class Renderer:
         shape = (face if self.scene.subdivide else face.unsubdivided).shape(pose)
         if isinstance(shape, Drawing):
             return draw_drawing(shape, self.scene)
-        return self.draw_mesh(subdivide(shape, self.scene.subdivide))
+        return self.draw_mesh(self.refine(shape))
+
+    def refine(self, mesh: Mesh) -> Mesh:
+        """The mesh subdivided as the scene asks, by compiled code on all threads; ``core.subdivide`` to the bit."""
+        plain = self._rasteriser == "reference"
+        return subdivide(mesh, self.scene.subdivide, SparseMatrix.apply if plain else self._multiply)
 
     def draw_mesh(self, mesh: Mesh) -> Picture:
         """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is."""
@@ -92,7 +98,7 @@ class Renderer:
 
     def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
         """What ``shade.light_mesh`` says, by compiled code on all threads."""
-        lighting, _ = load()
+        lighting, *_ = load()
         topology = mesh.topology
         polygons, nodes, shades = topology.polygon_count, len(plan.vertex), len(plan.lit)
         normals, facing = np.empty((polygons, 3)), np.empty(polygons, dtype=np.bool_)
@@ -110,13 +116,22 @@ class Renderer:
         )
         return Shades(diffuse, highlight, facing)
 
+    def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What ``SparseMatrix.apply`` says of values (C, 3)."""
+        *_, refining = load()
+        rows, _ = matrix.shape
+        out = np.empty((rows, 3))
+        entries = (matrix.starts, matrix.columns, matrix.weights, np.ascontiguousarray(values))
+        self._share(refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
+        return out
+
     def _parts(self, count: int) -> list[tuple[int, int]]:
         """0:count in as many runs as there are threads."""
         ends = [count * k // self.threads for k in range(self.threads + 1)]
         return list(pairwise(ends))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
-        _, spans = load()
+        _, spans, _ = load()
         width, height = self.scene.size_px
         raster_height, n = self._camera.height, self._oversampling
         count = len(triangles.corners)
@@ -189,5 +204,10 @@ def warmup(report: Report | None = None) -> float:
         on_compile(report)
     corners = np.array([[0, 1, 2]])
     points = np.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.0, 0.1, 0.0]])
-    mesh = Mesh(build_topology(3, [("sample", corners, Material())]), points, np.full((3, 3), 0.5))
-    return timed(lambda: draw_mesh(mesh, Scene(size_px=(32, 32))))
+    mesh = Mesh(build_topology(3, [("sample", corners, Material(subdivide=True))]), points, np.full((3, 3), 0.5))
+
+    def every() -> None:
+        with Renderer(Scene(size_px=(32, 32))) as renderer:
+            renderer.draw_mesh(renderer.refine(mesh))
+
+    return timed(every)

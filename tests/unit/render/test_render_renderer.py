@@ -24,6 +24,7 @@ from mien.core import (
     build_topology,
     subdivide,
 )
+from mien.faces import load_face
 from mien.render import Renderer, draw, draw_mesh
 from mien.render.camera import SUBPIXELS, Camera
 from mien.render.clip import clip_polygons
@@ -168,3 +169,12 @@ def test_real_head_is_the_same_in_both_rasterisers(view: str) -> None:
     plain = draw_mesh(mesh, scene, samples=1, rasteriser="reference")
     np.testing.assert_array_equal(draw_mesh(mesh, scene, samples=1, threads=2), plain)
     assert len(np.unique(plain.reshape(-1, 4), axis=0)) > 300
+
+
+def test_compiled_refinement_is_the_plain_one_to_the_bit():
+    face = load_face("head")
+    mesh = face.shape(face.neutral)
+    with Renderer(Scene(size_px=(8, 8)), threads=2) as renderer:
+        fine, plain = renderer.refine(mesh), subdivide(mesh, 2)
+    assert fine.points.tobytes() == plain.points.tobytes()
+    assert fine.colors.tobytes() == plain.colors.tobytes()
