@@ -35,10 +35,6 @@ class ToyFace:
     presets: dict = field(default_factory=dict)
 
     @property
-    def neutral(self):
-        return Pose.neutral(self.parameters)
-
-    @property
     def unsubdivided(self):
         return self
 

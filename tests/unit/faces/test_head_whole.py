@@ -8,6 +8,7 @@ import pytest
 
 from mien.core import LoadError, MienError, Pose, RangeError, UnknownNameError
 from mien.faces import face_names, load_face
+from mien.faces.head.creases import creased_skin
 from mien.faces.head.measured import archive
 from mien.faces.head.neck import turn_back, turn_direction, turn_head
 
@@ -167,3 +168,25 @@ def test_a_residual_file_is_checked(tmp_path):
 def test_a_missing_face_file_is_named(tmp_path):
     with pytest.raises(LoadError, match="no such file"):
         load_face(tmp_path / "nobody.face.json")
+
+
+def test_creases_lie_where_parke_names_them_and_no_polygon_spans_one():
+    creased, count = creased_skin(archive()), len(archive().mirror)
+    quads, source = creased.quads, creased.source
+    np.testing.assert_array_equal(source[quads], archive().quads)
+    doubled = set(source[count:].tolist())
+    for name in ("e1_9", "p3", "m1_0", "m1_9", "mb_5"):
+        assert archive().vertex[name] in doubled
+        assert int(archive().mirror[archive().vertex[name]]) in doubled
+
+
+def test_classic_smooth_pictures_show_the_creases_and_subdivided_skin_has_none():
+    classic, smooth = HEAD.unsubdivided, HEAD
+    assert classic.topology.vertex_count - smooth.topology.vertex_count < 200
+    skin = classic._layout.span["skin"]
+    points = classic.shape(classic.neutral).points[skin]
+    _, copies = np.unique(points, axis=0, return_counts=True)
+    # Under each eye 5 vertices, beside each side of the nose 4, around the lips 18, at each corner 1 more.
+    assert (copies > 1).sum() == 2 * (5 + 4 + 1) + 18
+    points = smooth.shape(smooth.neutral).points[smooth._layout.span["skin"]]
+    assert len(np.unique(points, axis=0)) == len(points)

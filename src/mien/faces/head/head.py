@@ -98,12 +98,16 @@ class Head:
         angles = head_angles(pose)
         balls = self._eyes(pose, angles)
         skin = self._skin(pose, balls)
-        parts: dict[str, Points] = {"skin": skin, "collar": self._rest["collar"], "hair": self._rest["hair"]}
+        parts: dict[str, Points] = {
+            "skin": skin[self._layout.skin],
+            "collar": self._rest["collar"],
+            "hair": self._rest["hair"],
+        }
         parts |= self._inside(pose)
         rounded: dict[str, Points] = {}
         light, viewer = self._room(pose, ("light", "viewer"), angles)
         for side, ball in balls.items():
-            parts[f"eye.{side}"], directions = eyes.eye_points(ball, self._sides)
+            parts[f"eye.{side}"], directions = eyes.eye_points(ball, self._layout.sides)
             rounded[f"eye.{side}"] = turn_direction(directions, angles)
             parts[f"spot.{side}"] = eyes.spot_points(ball, light, viewer)
             parts[f"caruncle.{side}"] = caruncle(skin, ball, side, self._archive)
@@ -211,11 +215,7 @@ class Head:
 
     @cached_property
     def _layout(self) -> Layout:
-        return lay_out(self._archive, self.hair, self._sides)
-
-    @property
-    def _sides(self) -> int:
-        return eyes.CLASSIC if self.kind == "surface" else eyes.SMOOTH
+        return lay_out(self._archive, self.hair, self.kind)
 
     @cached_property
     def _mouth(self) -> MouthRegions:
@@ -237,7 +237,7 @@ class Head:
     def _neck_share(self) -> Floats:
         """(V,) of the whole head: the collar stays, all but the neck turns fully."""
         share = np.ones(self.topology.vertex_count)
-        share[self._layout.span["skin"]] = neck_share(self._measured.points)
+        share[self._layout.span["skin"]] = neck_share(self._measured.points)[self._layout.skin]
         share[self._layout.span["collar"]] = 0.0
         return share
 

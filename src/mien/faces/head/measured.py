@@ -91,6 +91,16 @@ class Archive:
         return self.ints("quads")
 
     @cached_property
+    def groups(self) -> Ints:
+        """(F,) number into ``group_names`` of each polygon of the skin."""
+        return self.ints("groups")
+
+    @cached_property
+    def group_names(self) -> tuple[str, ...]:
+        """Names of the groups: ear, lids, lips, mouth, nostril, skin."""
+        return tuple(str(name) for name in self.arrays["group_names"])
+
+    @cached_property
     def mirror(self) -> Ints:
         """(V,) vertex that each vertex becomes in the mirror."""
         return self.ints("mirror")

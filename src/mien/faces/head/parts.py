@@ -13,9 +13,10 @@ from mien.core.mesh import Ints, Points
 
 from . import shades
 from .brows import brow_strips
-from .eyes import SPOT_SIDES, eye_polygons, eye_shades
+from .creases import creased_skin
+from .eyes import CLASSIC, SMOOTH, SPOT_SIDES, eye_polygons, eye_shades
 from .lashes import CARUNCLE_QUADS, lashes
-from .measured import Archive, Floats
+from .measured import Archive, Floats, Kind
 
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
 EYE = Material(gloss=0.1, gloss_power=60, round=True)
@@ -46,7 +47,7 @@ class Layout:
         rest: part -> (N, 3) m of the parts that are modelled in place.
         lower: part -> (N,) whether a vertex belongs to the lower jaw.
         mirror: (V,) vertex in the mirror, -1 for hair.
-        quads: part -> polygons in the part's own numbers.
+        skin: (N,) measured vertex of each vertex of the skin, which doubles some along creases.
     """
 
     archive: Archive
@@ -57,6 +58,7 @@ class Layout:
     mirror: Ints
     hair: str
     sides: int
+    skin: Ints
 
     def join(self, parts: Mapping[str, Floats]) -> Floats:
         """(V, 3) with each part's rows in its place; parts that are not given are 0."""
@@ -70,7 +72,7 @@ class Layout:
         archive, rest = self.archive, self.rest
         of = partial(shades.color_of, pose)
         out = {
-            "skin": shades.blend(archive.floats("region_weights"), shades.regions(pose)) * shades.skin_shade(archive)
+            "skin": shades.blend(self._region_weights(), shades.regions(pose)) * shades.skin_shade(archive)[self.skin]
         }
         eye = np.concatenate([of(name) * factor for name, factor in eye_shades(self.sides)])
         corner = 0.5 * of("blush") + 0.5 * np.array([0.57, 0.147, 0.133])
@@ -100,10 +102,21 @@ class Layout:
             out["hair"] = np.zeros((0, 3))
         return out
 
+    def _region_weights(self) -> Floats:
+        """(N, R) weights of the skin's colour regions; at a crease around the lips each side has its own colour."""
+        weights = self.archive.floats("region_weights")[self.skin]
+        if self.sides == CLASSIC:
+            beside = creased_skin(self.archive).beside_lips
+            weights[beside] = 0.0
+            weights[beside, 0] = 1.0
+        return weights
+
 
 @lru_cache(maxsize=32)
-def lay_out(archive: Archive, hair: str, sides: int) -> Layout:
-    """The layout of a head with a hair style and eyes of so many sides.
+def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
+    """The layout of a head with a hair style, for one of the two position sets.
+
+    The surface is for classic pictures: eyes of twelve sides, creases by doubled vertices.
 
     Raises:
         UnknownNameError: there is no such hair style.
@@ -111,12 +124,16 @@ def lay_out(archive: Archive, hair: str, sides: int) -> Layout:
     if hair not in archive.hair_styles:
         raise UnknownNameError("hair style", hair, archive.hair_styles)
     lash, strip = lashes(archive), brow_strips(archive, 0.0)
+    classic = kind == "surface"
+    sides = CLASSIC if classic else SMOOTH
+    creased = creased_skin(archive)
+    quads, skin = (creased.quads, creased.source) if classic else (archive.quads, np.arange(len(archive.mirror)))
     pupil, rings = eye_polygons(sides)
     eye_count = int(rings.max()) + 1
     rest: dict[str, Points] = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue")}
     bald = hair == "bald"
     rest["hair"] = np.zeros((0, 3)) if bald else archive.floats(f"hair_{hair}_points")
-    rows: list[tuple[str, int, list[Ints], Material]] = [("skin", len(archive.mirror), [archive.quads], SKIN)]
+    rows: list[tuple[str, int, list[Ints], Material]] = [("skin", len(skin), [quads], SKIN)]
     for side in ("left", "right"):
         flip = slice(None) if side == "right" else slice(None, None, -1)
         rows += [
@@ -143,12 +160,13 @@ def lay_out(archive: Archive, hair: str, sides: int) -> Layout:
     span.setdefault("hair", slice(first, first))
     lower = {name: archive.ints(f"{name}_lower").astype(bool) for name in ("teeth", "gums")}
     topology = build_topology(first, polygons)
-    return Layout(archive, topology, span, rest, lower, _mirror(archive, span, rest, first, sides), hair, sides)
+    mirror = _mirror(archive, span, rest, first, sides)
+    mirror[span["skin"]] = creased.mirror if classic else archive.mirror
+    return Layout(archive, topology, span, rest, lower, mirror, hair, sides, skin)
 
 
 def _mirror(archive: Archive, span: Mapping[str, slice], rest: Mapping[str, Points], count: int, sides: int) -> Ints:
     mirror = np.full(count, -1, dtype=np.int64)
-    mirror[span["skin"]] = archive.mirror
     # Eyes: corner j lies at (j + 1/2) steps from the own left, so its mirror image is corner n/2 - 1 - j.
     for name, corners in (("eye", sides), ("spot", SPOT_SIDES)):
         length = span[f"{name}.left"].stop - span[f"{name}.left"].start
