@@ -13,8 +13,19 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 ORDER = (
-    "hero", "three_views", "shading", "expressions", "blink", "jaw", "strip", "filmstrip", "mouth", "gaze", "people", "one_light",
-)  # fmt: skip
+    "hero",
+    "three_views",
+    "shading",
+    "expressions",
+    "blink",
+    "jaw",
+    "strip",
+    "filmstrip",
+    "mouth",
+    "gaze",
+    "people",
+    "one_light",
+)
 
 
 def load(name: str):
