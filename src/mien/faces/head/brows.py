@@ -13,6 +13,7 @@ from .falloff import bell, own_side
 from .measured import Archive, Floats, Measured
 from .rest import REST_ARCH
 from .units import PARKE_UNIT_M as UNIT
+from .vectors import unit
 
 HIGH = (("browOuterUp", 0.95), ("browInnerUp", 0.30))
 LOW = (("browOuterUp", -0.40),)
@@ -95,6 +96,5 @@ def place_brows(strips: BrowStrips, points: Points, normals: Points) -> Points:
     out = []
     for index, weight in zip(strips.index, strips.weight, strict=True):
         normal = bind(index, weight, normals)
-        normal /= np.sqrt((normal * normal)[:, 0] + (normal * normal)[:, 1] + (normal * normal)[:, 2])[:, None]
-        out.append(bind(index, weight, points) + strips.offset[:, None] * normal)
+        out.append(bind(index, weight, points) + strips.offset[:, None] * unit(normal))
     return np.concatenate(out)

@@ -16,6 +16,7 @@ from mien.core.mesh import Ints, Points
 
 from .measured import Floats
 from .units import DEG
+from .vectors import cross, dot, length
 
 BACK_COS_SIN = ((-0.3420201433256687, 0.9396926207859084), (-0.6427876096865394, 0.766044443118978))
 """Cosine and sine of 110 and 130 degrees: two rings behind his hemisphere, so that no gap shows beside the lids."""
@@ -59,12 +60,14 @@ class Eye:
 
 def normalised(vector: Floats) -> Floats:
     """A vector (3,) of length 1; straight ahead if it has no length."""
-    length = float(np.sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]))
-    return vector / length if length > 1e-12 else np.array([0.0, 0.0, 1.0])
+    size = float(length(vector))
+    return vector / size if size > 1e-12 else np.array([0.0, 0.0, 1.0])
 
 
-def _dot(a: Floats, b: Floats) -> float:
-    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+def _aside_and_above(direction: Floats) -> tuple[Floats, Floats]:
+    """Unit vectors (3,) across a direction: level, towards the own left when it points ahead; and upwards."""
+    aside = normalised(np.array([direction[2], 0.0, -direction[0]]))
+    return aside, cross(direction, aside)
 
 
 def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: float = 0.0) -> Floats:
@@ -75,14 +78,14 @@ def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: floa
     x, y, z = normalised(target - centre)
     level = max(float(z), 1e-9)
     x = min(max(float(x) / level, -MOST_SIDEWAYS), MOST_SIDEWAYS)
-    y = min(max(float(y) / level / float(np.sqrt(1.0 + x * x)), -MOST_UP), MOST_UP) * float(np.sqrt(1.0 + x * x))
+    flat = float(np.sqrt(1.0 + x * x))
+    y = min(max(float(y) / level / flat, -MOST_UP), MOST_UP) * flat
     if turn_deg or nod_deg:
-        flat = float(np.sqrt(1.0 + x * x))
         turn, nod = turn_deg * DEG, nod_deg * DEG
         sin_turn, cos_turn, sin_nod, cos_nod = (float(f) for a in (turn, nod) for f in exact.sin_cos(a))
         ahead, aside = (cos_turn - x * sin_turn) / flat, (sin_turn + x * cos_turn) / flat
-        length = float(np.sqrt(flat * flat + y * y))
-        level_part, up_part = flat / length, y / length
+        whole = float(np.sqrt(flat * flat + y * y))
+        level_part, up_part = flat / whole, y / whole
         level_part, up_part = level_part * cos_nod - up_part * sin_nod, level_part * sin_nod + up_part * cos_nod
         return np.array([aside * level_part, up_part, ahead * level_part])
     return normalised(np.array([x, y, 1.0]))
@@ -112,7 +115,7 @@ def spot_direction(eye: Eye, light: Floats, viewer: Floats) -> tuple[Floats, flo
     to_light = normalised(light - lens)
     half = normalised(to_light + normalised(viewer - lens))
     # The spot fades where the lens ends (45 degrees from its axis) and where the light only grazes it.
-    on_lens, lit = (_dot(half, eye.forward) - 0.62) / 0.12, (_dot(half, to_light) - 0.15) / 0.15
+    on_lens, lit = (float(dot(half, eye.forward)) - 0.62) / 0.12, (float(dot(half, to_light)) - 0.15) / 0.15
     shown = min(max(min(on_lens, lit), 0.0), 1.0)
     return normalised(centre * eye.forward + radius * half), shown
 
@@ -160,16 +163,9 @@ def ring_radii(eye: Eye) -> tuple[tuple[float, float], ...]:
 def eye_points(eye: Eye, sides: int) -> tuple[Points, Points]:
     """(N, 3) m points and (N, 3) normals of one eyeball: pupil first, then each band's rings with its own vertices."""
     forward = eye.forward
-    right = normalised(np.array([forward[2], 0.0, -forward[0]]))
-    up = np.array(
-        [
-            forward[1] * right[2] - forward[2] * right[1],
-            forward[2] * right[0] - forward[0] * right[2],
-            forward[0] * right[1] - forward[1] * right[0],
-        ]
-    )
-    around = _circle(sides)
-    spokes = around[0][:, None] * right + around[1][:, None] * up
+    aside, above = _aside_and_above(forward)
+    x, y = _circle(sides)
+    spokes = x[:, None] * aside + y[:, None] * above
     radii = ring_radii(eye)
     rings = [radii[0]]
     for number, band in enumerate(BANDS):
@@ -178,8 +174,8 @@ def eye_points(eye: Eye, sides: int) -> tuple[Points, Points]:
         for k in range(steps + 1):
             t = k / steps
             c, s = c0 + t * (c1 - c0), s0 + t * (s1 - s0)
-            length = float(np.sqrt(c * c + s * s))
-            rings.append((c / length, s / length))
+            size = float(np.sqrt(c * c + s * s))
+            rings.append((c / size, s / size))
     normals = np.concatenate([c * forward + s * spokes for c, s in rings])
     return eye.centre + eye.radius * normals, normals
 
@@ -187,14 +183,7 @@ def eye_points(eye: Eye, sides: int) -> tuple[Points, Points]:
 def spot_points(eye: Eye, light: Floats, viewer: Floats) -> Points:
     """(6, 3) m, the reflection spot: a hexagon on the eye where the light is mirrored to the viewer."""
     direction, shown = spot_direction(eye, light, viewer)
-    aside = normalised(np.array([direction[2], 0.0, -direction[0]]))
-    above = np.array(
-        [
-            direction[1] * aside[2] - direction[2] * aside[1],
-            direction[2] * aside[0] - direction[0] * aside[2],
-            direction[0] * aside[1] - direction[1] * aside[0],
-        ]
-    )
+    aside, above = _aside_and_above(direction)
     size = max(eye.spot * shown, 1e-3)
     x, y = _circle(SPOT_SIDES)
     flat = direction + size * (x[:, None] * aside + y[:, None] * above)

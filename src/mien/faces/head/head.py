@@ -33,6 +33,7 @@ from .residual import Residual, apply_residual, carry, eyes_of
 from .table import head_table
 from .tongue import move_tongue
 from .units import DEG
+from .vectors import cross
 
 SURFACE_BROW_LIFT_M = 0.001
 
@@ -173,17 +174,10 @@ class Head:
         return turn_back(places, angles)
 
     def _normals(self, points: Points) -> Points:
+        """(V, 3) of the skin, each the sum of its polygons' normals, which are as long as twice their areas."""
         quads = self._archive.quads
         a, b = points[quads[:, 2]] - points[quads[:, 0]], points[quads[:, 3]] - points[quads[:, 1]]
-        cross = np.stack(
-            [
-                a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
-                a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
-                a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
-            ],
-            axis=1,
-        )
-        return self._normal_matrix.apply(cross)
+        return self._normal_matrix.apply(cross(a, b))
 
     def _color(self, pose: Pose, parts: Mapping[str, Points], balls: Mapping[str, eyes.Eye]) -> Floats:
         key = shades.palette_key(pose)

@@ -11,6 +11,7 @@ from mien.core.mesh import Ints, Points
 from .brows import bind
 from .eyes import Eye
 from .measured import Archive, Floats
+from .vectors import cross, unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,20 +47,13 @@ def lash_points(lashes: Lashes, skin: Points, eye: Eye, side: str) -> Points:
     number = 0 if side == "left" else 1
     reach = lashes.reach[number]
     root = bind(lashes.index[number], lashes.weight[number], skin)
-    radial = _unit(root - eye.centre)
+    radial = unit(root - eye.centre)
     up = -radial * radial[:, 1:2]
     up[:, 1] += 1.0
-    up = _unit(up)
-    aside = np.stack(
-        [
-            up[:, 1] * radial[:, 2] - up[:, 2] * radial[:, 1],
-            up[:, 2] * radial[:, 0] - up[:, 0] * radial[:, 2],
-            up[:, 0] * radial[:, 1] - up[:, 1] * radial[:, 0],
-        ],
-        axis=1,
-    )
+    up = unit(up)
+    aside = cross(up, radial)
     sign = 1.0 if number == 0 else -1.0
-    direction = _unit(radial + up * reach[:, 1:2] + sign * aside * reach[:, 2:3])
+    direction = unit(radial + up * reach[:, 1:2] + sign * aside * reach[:, 2:3])
     return np.where(reach[:, 3:] > 0.0, root + direction * reach[:, :1], root + radial * 0.00012)
 
 
@@ -76,15 +70,10 @@ def caruncle(skin: Points, eye: Eye, side: str, archive: Archive) -> Points:
     centre, radius = eye.centre, eye.radius
     corner = centre + (vertex("e0_0") - centre) * 0.985
     above, below = (centre + (vertex(name) - centre) * 0.99 for name in ("ei_1", "ei_11"))
-    middle = _unit(((above + below) * 0.5 - centre)[None])[0]
+    middle = unit((above + below) * 0.5 - centre)
     ball = centre + middle * (radius - 0.0005)
     upper, lower = (centre + (vertex(name) * 0.4 + vertex("e0_0") * 0.6 - centre) * 0.985 for name in ("e0_1", "e0_11"))
     bulge = (corner + upper + lower + ball) * 0.25 + np.array([0.0, 0.0, 0.0005])
     points = np.stack([corner, upper, above, lower, bulge, ball, below])
     # The right side is a mirror image: swap upper and lower so that the polygons still face outwards.
     return points if side == "left" else points[[0, 3, 6, 1, 4, 5, 2]]
-
-
-def _unit(vectors: Points) -> Points:
-    squares = vectors * vectors
-    return vectors / np.sqrt(squares[:, 0] + squares[:, 1] + squares[:, 2])[:, None]

@@ -17,10 +17,10 @@ from mien.core.subdivision import refine
 
 from .lids_fit import fit_lids
 from .measured import Archive, Measured
+from .vectors import length
 
 NEIGHBOURS = 24
 SOFTENING_M = 0.008
-LID_CLEARANCE_M = 0.00035
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,8 +90,7 @@ def carry(points: Points, archive: Archive, residual: Residual | None) -> Points
     rest = archive.floats("surface")
     out = points.copy()
     for number, point in enumerate(points):
-        offset = rest - point
-        distance = np.sqrt(offset[:, 0] ** 2 + offset[:, 1] ** 2 + offset[:, 2] ** 2)
+        distance = length(rest - point)
         near = np.argsort(distance, kind="stable")[:NEIGHBOURS]
         weight = 1.0 / (distance[near] + SOFTENING_M) ** 2
         moves = residual.surface[near] * weight[:, None]
