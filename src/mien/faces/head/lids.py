@@ -48,15 +48,16 @@ def move_lids(points: Points, lids: Lids, closed: tuple[float, float], gaze_up_d
     share = np.minimum(share, 1.0)
     elevation = lids.elevation + share * (lids.elevation_shut - lids.elevation)
     radius = lids.radius + np.clip(share, 0.0, 1.0) * (lids.radius_shut - lids.radius)
-    move = _on_sphere(lids.azimuth, elevation, radius) - _on_sphere(lids.azimuth, lids.elevation, lids.radius)
+    move = on_sphere(lids.azimuth, elevation, radius) - on_sphere(lids.azimuth, lids.elevation, lids.radius)
     move[:, 0] *= lids.side
     out = points.copy()
     out[lids.index] += move
     return out
 
 
-def _on_sphere(azimuth: Floats, elevation: Floats, radius: Floats) -> Points:
+def on_sphere(azimuth: Floats, elevation: Floats, radius: Floats) -> Points:
+    """(..., 3) m about the eye: azimuth outwards and elevation upwards (...), rad; radius (...), m."""
     sin_up, cos_up = exact.sin_cos(elevation)
     sin_around, cos_around = exact.sin_cos(azimuth)
     flat = radius * cos_up
-    return np.stack([flat * sin_around, radius * sin_up, flat * cos_around], axis=1)
+    return np.stack([flat * sin_around, radius * sin_up, flat * cos_around], axis=-1)

@@ -6,31 +6,63 @@ with the neutral arcs four of ten people showed a sliver of eye. Here the same r
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mien.core.mesh import Points
+from mien.core.mesh import Ints, Points
 from mien.core.sparse import SparseMatrix
 
+from .lids import on_sphere
 from .measured import LID_RINGS, Floats, Lids
-
-Curve = Callable[[float], float]
+from .vectors import length
 
 MEETING = 0.70
 """The margins meet 70 % of the way down from the upper to the lower one."""
 
 OVERLAP_RAD = 0.012
+"""How far each margin passes the line where they meet."""
+
 SHARE_UPPER = (1.0, 1.0, 1.0, 0.66, 0.30, 0.07)
 SHARE_LOWER = (1.0, 1.0, 1.0, 0.60, 0.30, 0.10)
 """How far each ring goes with the margin, from the hidden inner ring to the fold."""
 
 CLEARANCE_M = 0.0005
 MARGIN_CLEARANCE_M, LIP_CLEARANCE_M = 0.00085, 0.0012
+"""How far refined skin, margin and lip of the lids stand off the ball at least."""
+
 ROUNDS = 16
-MARGIN = LID_RINGS.index("margin")
+INNER, MARGIN, LIP = (LID_RINGS.index(ring) for ring in ("inner", "margin", "lip"))
 STATIONS = 12
+ABOVE, BELOW = np.arange(0, 7), np.array([0, *range(11, 5, -1)])
+"""Stations of the upper and of the lower margin, from the inner to the outer corner; they share both corners."""
+
+
+@dataclass(frozen=True, eq=False)
+class LeftEye:
+    """What the lids of the left eye are fitted to; the right ones mirror them.
+
+    Attributes:
+        points: (V, 3) m, neutral skin.
+        lids: polar coordinates at rest of the lids on that skin.
+        rows: (rings, stations) numbers into ``lids``.
+        centre: (3,) m.
+        radius: m, of the ball.
+        refine: matrix (V', V) of one subdivision step for a cage; None for points on the surface.
+    """
+
+    points: Points
+    lids: Lids
+    rows: Ints
+    centre: Points
+    radius: float
+    refine: SparseMatrix | None
+
+    def margin(self, points: Points) -> tuple[Floats, Floats]:
+        """(stations,) azimuth and elevation of the margin, on refined skin for a cage."""
+        seen = points if self.refine is None else self.refine.apply(points)
+        azimuth, elevation, _ = to_polar(seen[self.lids.index[self.rows[MARGIN]]] - self.centre)
+        return azimuth, elevation
 
 
 def fit_lids(points: Points, lids: Lids, centres: Points, radius: float, refine: SparseMatrix | None) -> Lids:
@@ -45,107 +77,86 @@ def fit_lids(points: Points, lids: Lids, centres: Points, radius: float, refine:
     """
     flip = np.stack([lids.side, np.ones_like(lids.side), np.ones_like(lids.side)], axis=1)
     centre = np.where(lids.side[:, None] > 0, centres[0], centres[1])
-    azimuth, elevation, distance = _polar((points[lids.index] - centre) * flip)
+    azimuth, elevation, distance = to_polar((points[lids.index] - centre) * flip)
     fitted = replace(lids, azimuth=azimuth, elevation=elevation, radius=distance)
-    left = np.flatnonzero(lids.side > 0)
-    ring = left.reshape(len(LID_RINGS), STATIONS)
-    margin = _margin(points, lids.index[ring[MARGIN]], centres[0], refine)
-    upper, lower = _curves(margin)
-    shut, far = elevation.copy(), distance.copy()
-    for number, row in enumerate(ring):
-        for vertex in row[lids.upper[row] != 0]:
-            is_upper = lids.upper[vertex] > 0
-            share = (SHARE_UPPER if is_upper else SHARE_LOWER)[number]
-            start = (upper if is_upper else lower)(azimuth[vertex])
-            way = _meeting(upper, lower, azimuth[vertex]) - start
-            shut[vertex] = elevation[vertex] + share * way
-            if number <= MARGIN:
-                shut[vertex] -= OVERLAP_RAD if is_upper else -OVERLAP_RAD
-            if number == MARGIN:
-                far[vertex] = max(distance[vertex], radius + MARGIN_CLEARANCE_M)
-            elif number == MARGIN + 1:
-                # Never thinner than its clearance, never thicker than the open lid.
-                far[vertex] = max(radius + LIP_CLEARANCE_M, 0.5 * (distance[vertex] + radius + LIP_CLEARANCE_M))
-    for _ in range(ROUNDS if refine is not None else 0):
-        _correct(points, fitted, shut, far, ring, centres[0], radius, refine, upper, lower)
-    right = np.flatnonzero(lids.side < 0)
+    left, right = np.flatnonzero(lids.side > 0), np.flatnonzero(lids.side < 0)
+    eye = LeftEye(points, fitted, left.reshape(len(LID_RINGS), STATIONS), centres[0], radius, refine)
+    margin = eye.margin(points)
+    shut, far = _close(eye, margin)
+    if refine is not None:
+        for _ in range(ROUNDS):
+            shut, far = _correct(eye, margin, refine, shut, far)
     shut[right], far[right] = shut[left], far[left]
     return replace(fitted, elevation_shut=_round(shut), radius_shut=_round(far))
 
 
+def _close(eye: LeftEye, margin: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
+    """(L,) elevation and radius of the shut lids, each ring by its share of what the margin goes."""
+    lids = eye.lids
+    shut, far = lids.elevation.copy(), lids.radius.copy()
+    moving = eye.rows[lids.upper[eye.rows] != 0]
+    ring, upper = lids.ring[moving], lids.upper[moving] > 0
+    top, bottom = _margin_elevations(margin, lids.azimuth[moving])
+    share = np.where(upper, np.take(SHARE_UPPER, ring), np.take(SHARE_LOWER, ring))
+    shut[moving] += share * (_meeting(top, bottom) - np.where(upper, top, bottom))
+    shut[moving] -= np.where(ring <= MARGIN, _overlap(upper), 0.0)
+    edge, lip = moving[ring == MARGIN], moving[ring == LIP]
+    far[edge] = np.maximum(far[edge], eye.radius + MARGIN_CLEARANCE_M)
+    # Never thinner than its clearance, never thicker than the open lid.
+    far[lip] = np.maximum(eye.radius + LIP_CLEARANCE_M, 0.5 * (far[lip] + eye.radius + LIP_CLEARANCE_M))
+    return shut, far
+
+
 def _correct(
-    points: Points,
-    lids: Lids,
-    shut: Floats,
-    far: Floats,
-    ring: np.ndarray[tuple[int, int], np.dtype[np.int64]],
-    centre: Floats,
-    radius: float,
-    refine: SparseMatrix | None,
-    upper: Curve,
-    lower: Curve,
-) -> None:
-    """One round: move margins towards where the refined ones should meet, push out what cuts the ball."""
-    posed = points.copy()
-    posed[lids.index[ring]] = centre + _cartesian(lids.azimuth[ring], shut[ring], far[ring])
-    margin = _margin(posed, lids.index[ring[MARGIN]], centre, refine)
-    for station in range(STATIONS):
-        vertex = ring[MARGIN, station]
-        if lids.upper[vertex] == 0:
-            continue
-        over = OVERLAP_RAD if lids.upper[vertex] > 0 else -OVERLAP_RAD
-        miss = _meeting(upper, lower, margin[0][station]) - over - margin[1][station]
-        for number in (MARGIN - 1, MARGIN):
-            shut[ring[number, station]] += 0.8 * miss
-    if refine is None:
-        return
-    fine = refine.apply(posed) - centre
-    gap = np.sqrt(fine[:, 0] ** 2 + fine[:, 1] ** 2 + fine[:, 2] ** 2) - radius
-    owner = {int(lids.index[vertex]): int(vertex) for vertex in ring[MARGIN:].ravel()}
-    near = np.flatnonzero((gap < CLEARANCE_M) & (fine[:, 2] > 0.002))
-    for row in near:
-        entries = slice(refine.starts[row], refine.starts[row + 1])
+    eye: LeftEye, margin: tuple[Floats, Floats], refine: SparseMatrix, shut: Floats, far: Floats
+) -> tuple[Floats, Floats]:
+    """One round: margins moved towards where the refined ones should meet, and what cuts the ball pushed out."""
+    lids, rows = eye.lids, eye.rows
+    shut, far = shut.copy(), far.copy()
+    posed = eye.points.copy()
+    posed[lids.index[rows]] = eye.centre + on_sphere(lids.azimuth[rows], shut[rows], far[rows])
+    azimuth, elevation = eye.margin(posed)
+    moving = np.flatnonzero(lids.upper[rows[MARGIN]])
+    over = _overlap(lids.upper[rows[MARGIN, moving]] > 0)
+    miss = _meeting(*_margin_elevations(margin, azimuth[moving])) - over - elevation[moving]
+    for ring in (INNER, MARGIN):
+        shut[rows[ring, moving]] += 0.8 * miss
+    fine = refine.apply(posed) - eye.centre
+    gap = length(fine) - eye.radius
+    owner = {int(lids.index[row]): int(row) for row in rows[MARGIN:].ravel()}
+    for vertex in np.flatnonzero((gap < CLEARANCE_M) & (fine[:, 2] > 0.002)):
+        entries = slice(refine.starts[vertex], refine.starts[vertex + 1])
         for column, weight in zip(refine.columns[entries], refine.weights[entries], strict=True):
             if int(column) in owner and weight > 0.05:
-                far[owner[int(column)]] += 0.6 * weight * (CLEARANCE_M - gap[row])
+                far[owner[int(column)]] += 0.6 * weight * (CLEARANCE_M - gap[vertex])
+    return shut, far
 
 
-def _margin(
-    points: Points, vertices: np.ndarray[tuple[int], np.dtype[np.int64]], centre: Floats, refine: SparseMatrix | None
-) -> tuple[Floats, Floats]:
-    """Azimuth and elevation of the left margin's twelve stations, on refined skin for a cage."""
-    seen = points if refine is None else refine.apply(points)
-    azimuth, elevation, _ = _polar(seen[vertices] - centre)
-    return azimuth, elevation
+def _overlap(upper: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Floats:
+    return np.where(upper, OVERLAP_RAD, -OVERLAP_RAD)
 
 
-def _curves(margin: tuple[Floats, Floats]) -> tuple[Curve, Curve]:
-    """Elevation of the upper and the lower margin as functions of azimuth."""
-    azimuth, elevation = margin
-    above, below = np.arange(0, 7), np.array([0, *range(11, 5, -1)])
-    return _curve(azimuth[above], elevation[above]), _curve(azimuth[below], elevation[below])
+def _meeting(top: Floats, bottom: Floats) -> Floats:
+    return top + MEETING * (bottom - top)
 
 
-def _curve(azimuth: Floats, elevation: Floats) -> Curve:
+def _margin_elevations(margin: tuple[Floats, Floats], azimuth: Floats) -> tuple[Floats, Floats]:
+    """(N,) elevation of the upper and of the lower margin at an azimuth (N,)."""
+    top, bottom = (_curve(margin[0][stations], margin[1][stations], azimuth) for stations in (ABOVE, BELOW))
+    return top, bottom
+
+
+def _curve(azimuth: Floats, elevation: Floats, at: Floats) -> Floats:
     order = np.argsort(azimuth)
-    return lambda x: float(np.interp(x, azimuth[order], elevation[order]))
+    return np.interp(at, azimuth[order], elevation[order])
 
 
-def _meeting(upper: Curve, lower: Curve, azimuth: float) -> float:
-    top = upper(azimuth)
-    return float(top + MEETING * (lower(azimuth) - top))
-
-
-def _polar(vectors: Points) -> tuple[Floats, Floats, Floats]:
-    distance = np.sqrt(vectors[:, 0] ** 2 + vectors[:, 1] ** 2 + vectors[:, 2] ** 2)
+def to_polar(vectors: Points) -> tuple[Floats, Floats, Floats]:
+    """(N,) azimuth, elevation, rad, and distance, m, of vectors (N, 3) m."""
+    distance = length(vectors)
     azimuth = np.arctan2(vectors[:, 0], vectors[:, 2])
     elevation = np.arcsin(vectors[:, 1] / distance)
     return _round(azimuth), _round(elevation), _round(distance)
-
-
-def _cartesian(azimuth: Floats, elevation: Floats, distance: Floats) -> Points:
-    flat = distance * np.cos(elevation)
-    return np.stack([flat * np.sin(azimuth), distance * np.sin(elevation), flat * np.cos(azimuth)], axis=-1)
 
 
 def _round(values: Floats) -> Floats:
