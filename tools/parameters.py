@@ -9,6 +9,7 @@ from pathlib import Path
 
 import mien
 
+HEADER = "| name | from | rest | to | unit | meaning | source |"
 PLACE = Path(__file__).parents[1] / "docs/parameters.md"
 
 
@@ -31,12 +32,12 @@ def page() -> str:
         for row in rows:
             if row.name.endswith(".right"):
                 continue
-            name, doc = row.name, row.doc
-            if name.endswith(".left"):
-                name = name.removesuffix(".left") + "`.left` `.right"
-                doc = doc.replace(" left ", " own ")
+            name, doc = f"`{row.name}`", row.doc
+            if row.name.endswith(".left"):
+                name = f"`{row.name.removesuffix('.left')}` .left .right"
+                doc = doc.replace(" left ", " ")
             lines.append(
-                f"| `{name}` | {row.low:g} | {row.default:g} | {row.high:g} | {row.unit} | {doc} | {row.source} |"
+                f"| {name} | {row.low:g} | {row.default:g} | {row.high:g} | {row.unit} | {doc} | {row.source} |"
             )
     return "\n".join(lines) + "\n"
 
