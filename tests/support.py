@@ -1,4 +1,4 @@
-"""What several tests need: every installed face, and poses drawn from any table."""
+"""What several tests need: every installed face, poses drawn from any table, how far a head's lips are apart."""
 
 from functools import cache
 
@@ -6,7 +6,10 @@ import numpy as np
 from hypothesis import strategies as st
 
 from mien.core import Face, ParameterTable, Pose
+from mien.core.mesh import Points
 from mien.faces import face_names, load_face
+from mien.faces.head.measured import archive
+from mien.faces.head.mouth import CONTACT_STATIONS
 
 FACE_NAMES = tuple(name for name, _ in face_names())
 
@@ -20,6 +23,12 @@ def face(name: str) -> Face:
 def poses(table: ParameterTable) -> st.SearchStrategy[Pose]:
     """Any pose of a table: some rows moved, or all of them, many to an end of their range."""
     return st.one_of(_some_rows(table), st.integers(0, 2**32 - 1).map(lambda seed: _all_rows(table, seed)))
+
+
+def lip_gap_mm(skin: Points) -> float:
+    """Greatest height between the edges of contact of lips drawn with a head's skin, middle to next but the corner."""
+    height = {name: skin[number, 1] for name, number in archive().vertex.items()}
+    return 1000.0 * max(height[f"m0_{up}"] - height[f"m0_{low}"] for up, low, _ in CONTACT_STATIONS[:4])
 
 
 def _some_rows(table: ParameterTable) -> st.SearchStrategy[Pose]:

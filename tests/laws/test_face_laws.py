@@ -165,7 +165,3 @@ def awake(table):
     """A pose in which parameters that only act together with another have something to act on."""
     wanted = {"jaw.rotation": 6.0, "mouth.corner.width": 3.0}
     return {name: value for name, value in wanted.items() if name in table}
-
-
-def part_of_vertex(mesh, vertex):
-    return next(part.name for part in mesh.topology.parts if vertex in mesh.part_vertices(part.name))

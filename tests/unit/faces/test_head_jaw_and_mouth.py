@@ -9,8 +9,9 @@ from mien.core import Pose, Scene, subdivide
 from mien.faces import load_face
 from mien.faces.head.jaw import parke_shares, rotate_jaw
 from mien.faces.head.measured import archive
-from mien.faces.head.mouth import CONTACT_PAIRS, mouth_regions
+from mien.faces.head.mouth import mouth_regions
 from mien.render import draw
+from support import lip_gap_mm
 
 HEAD = load_face("head")
 REST = Pose.neutral(HEAD.parameters)
@@ -25,12 +26,8 @@ def vertex(name):
     return archive().vertex[name]
 
 
-def lip_gap_mm(values):
-    """Height between the edges of contact of the drawn lips, middle to next but the corner."""
-    skin = subdivide(HEAD.shape(REST.replace(values)), 2).points
-    return max(
-        1000.0 * (skin[vertex(f"m0_{upper}"), 1] - skin[vertex(f"m0_{lower}"), 1]) for upper, lower in CONTACT_PAIRS[:4]
-    )
+def gap_mm(values):
+    return lip_gap_mm(subdivide(HEAD.shape(REST.replace(values)), 2).points)
 
 
 def test_a_jaw_at_ninety_degrees_points_straight_down():
@@ -74,10 +71,10 @@ def test_lower_teeth_turn_with_the_jaw_and_upper_ones_stay():
     ids=["rest", "smile", "parted", "raised"],
 )
 def test_closure_shuts_the_lips_whatever_the_jaw_does(jaw, more):
-    rest = lip_gap_mm({})
-    assert lip_gap_mm({"jaw.rotation": jaw, "mouth.closure": 1, **more}) < rest + 0.35
+    rest = gap_mm({})
+    assert gap_mm({"jaw.rotation": jaw, "mouth.closure": 1, **more}) < rest + 0.35
     if jaw >= 3:
-        assert lip_gap_mm({"jaw.rotation": jaw, **more}) > 3.0
+        assert gap_mm({"jaw.rotation": jaw, **more}) > 3.0
 
 
 INSIDE = {

@@ -5,10 +5,9 @@ import pytest
 
 from mien.core import Cue, Pose, Sound, subdivide
 from mien.faces import load_face
-from mien.faces.head.measured import archive
-from mien.faces.head.mouth import CONTACT_PAIRS
 from mien.perform import perform
 from mien.speech import Speech, strip_stress
+from support import lip_gap_mm
 
 HEAD = load_face("head")
 SHUT_MM = 0.4
@@ -38,10 +37,7 @@ def speech():
 
 
 def gap_mm(values):
-    """Greatest height between the edges of contact of the drawn lips."""
-    skin = subdivide(HEAD.shape(Pose(HEAD.parameters, values)), 1).points
-    vertex = archive().vertex
-    return max(1000 * (skin[vertex[f"m0_{a}"], 1] - skin[vertex[f"m0_{b}"], 1]) for a, b in CONTACT_PAIRS[:4])
+    return lip_gap_mm(subdivide(HEAD.shape(Pose(HEAD.parameters, values)), 1).points)
 
 
 @pytest.mark.parametrize("emotion", [None, "smile", "laugh"])

@@ -7,6 +7,7 @@ the inside out they are mi, m0 (where the lips meet), mh, m1 (border of the red)
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,14 +27,25 @@ ARCH_CURVE = 21.0
 SMILE = (("mouthSmile", 1.0), ("cheekSquint", 0.45), ("mouthDimple", 0.12))
 """Measured expressions that make Parke's second set of mouth points, the smile at ``mouth.expression`` 0."""
 
+CORNER_RINGS = {"mh": 0.7, "m1": 1.0, "mb": 0.8}
+CORNER_STATIONS = {3: 0.5, 4: 1.0, 6: -1.0, 7: -0.5}
+"""Shares of ``mouth.corner.width``: the red above the corner goes up, the red below it down."""
+
 UPPER_RINGS = {"mj": 0.2, "mi": 1.0, "m0": 1.0, "mh": 1.0, "m1": 0.95, "mb": 0.8, "m2": 0.3}
+UPPER_STATIONS = {station: 1.0 - (station / 5.0) ** 2 for station in range(5)}
+"""Shares of ``mouth.upper_lip``: full effect in the middle, none at the corner, station 5."""
+
 TUCK_RINGS = {"mi": 1.0, "m0": 1.0, "mh": 0.95, "m1": 0.55, "mb": 0.4, "m2": 0.15}
 TUCK_STATIONS = {6: 0.35, 7: 0.8, 8: 1.0, 9: 1.0}
 TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
-CONTACT_RINGS = {"mj": 0.3, "mi": 1.0, "m0": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
-CONTACT_PAIRS = ((0, 9), (1, 8), (2, 7), (3, 6), (4, 6))
-OVERLAP_M = (0.0001, 0.0001, 0.0002, 0.0008, 0.0014)
-"""How much the pairs pass one another over an open jaw: near the corner the bridge alone leaves a slit."""
+"""Shares of ``mouth.tuck``, and where the lower lip is when it is fully under the teeth, from rest."""
+
+CONTACT_RINGS = {"m0": 1.0, "mj": 0.3, "mi": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
+"""Shares of closing; the first ring is where the lips meet, whose gap is closed."""
+
+CONTACT_STATIONS = ((0, 9, 0.0001), (1, 8, 0.0001), (2, 7, 0.0002), (3, 6, 0.0008), (4, 6, 0.0014))
+"""Stations that meet, above and below, and how far (m) they pass one another over an open jaw: near the corner the
+measured bridge alone leaves a slit."""
 
 OVERLAP_FROM = 0.25
 """Share of the measured open mouth from which on they pass one another fully."""
@@ -43,8 +55,38 @@ UPPER_PART = 0.35
 
 
 @dataclass(frozen=True, eq=False)
+class Contact:
+    """Vertices of all rings at two stations that meet when the lips close.
+
+    Attributes:
+        upper, lower: (R,) vertex numbers, the ring where the lips meet first.
+        share: (R,) share of the gap's closing.
+        upper_part: share of the gap that the upper lip closes; the lower one does the rest.
+        rest_gap: (3,) m from the upper to the lower lip at rest.
+        overlap_m: how far they pass one another over an open jaw.
+    """
+
+    upper: Ints
+    lower: Ints
+    share: Floats
+    upper_part: float
+    rest_gap: Floats
+    overlap_m: float
+
+
+@dataclass(frozen=True, eq=False)
 class MouthRegions:
-    """Weights (V,) of the mouth's deformers on one position set."""
+    """Weights (V,) of the mouth's deformers on one position set.
+
+    Attributes:
+        around: of the width: the mouth and what is around it.
+        lips: of the offset from the teeth.
+        corner: of the left and the right corner's moves.
+        corner_lips: of the left and the right corner's width: up is positive.
+        upper: of the upper lip's raise.
+        tuck: of the lower lip under the teeth.
+        contacts: what meets when the lips close.
+    """
 
     around: Floats
     lips: Floats
@@ -52,60 +94,58 @@ class MouthRegions:
     corner_lips: tuple[Floats, Floats]
     upper: Floats
     tuck: Floats
-    contact: tuple[tuple[Ints, Ints, Floats, Floats], ...]
-    rest_gap: Points
+    contacts: tuple[Contact, ...]
 
 
 def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
     """The weights, from the neutral points."""
     points = measured.points
-    around = ellipse(points, CENTRE, (0.027, 0.012), 2.2)
-    taper = np.maximum(0.0, 1.0 - 0.6 * (points[:, 0] / CORNER_X) ** 2)
-    lips = ellipse(points, CENTRE, (0.026, 0.0105), 1.8) * np.maximum(taper, 0.35)
-    corner: list[Floats] = []
-    corner_lips: list[Floats] = []
-    for side in (1, -1):
-        fade = bell(points, (side * CORNER_X, CENTRE[1]), (0.012, 0.011)) * own_side(points, side, 0.012)
-        corner.append(fade)
-        red = np.zeros(len(points))
-        for ring, share in (("mh", 0.7), ("m1", 1.0), ("mb", 0.8)):
-            for station, sign in ((3, 0.5), (4, 1.0), (6, -1.0), (7, -0.5)):
-                red[_both(archive, ring, station)[0 if side == 1 else 1]] = sign * share
-        corner_lips.append(red)
-    upper = np.zeros(len(points))
-    for ring, share in UPPER_RINGS.items():
-        for station in range(5):
-            for vertex in _both(archive, ring, station):
-                # The corner itself stays: full effect in the middle, none at station 5.
-                upper[vertex] = share * max(0.0, 1.0 - (station / 5.0) ** 2)
-    tuck = np.zeros(len(points))
-    for ring, share in TUCK_RINGS.items():
-        for station, part in TUCK_STATIONS.items():
-            for vertex in _both(archive, ring, station):
-                tuck[vertex] = share * part
-    contact = _contact(archive)
-    gap = np.stack([points[lower[0]] - points[upper[0]] for upper, lower, _, _ in contact])
-    return MouthRegions(around, lips, tuple(corner), tuple(corner_lips), upper, tuck, contact, gap)  # type: ignore[arg-type]
+    taper = np.maximum(1.0 - 0.6 * (points[:, 0] / CORNER_X) ** 2, 0.35)
+    left, right = (
+        bell(points, (side * CORNER_X, CENTRE[1]), (0.012, 0.011)) * own_side(points, side, 0.012) for side in (1, -1)
+    )
+    left_red, right_red = (_by_ring(archive, CORNER_RINGS, CORNER_STATIONS, (side,)) for side in (0, 1))
+    return MouthRegions(
+        around=ellipse(points, CENTRE, (0.027, 0.012), 2.2),
+        lips=ellipse(points, CENTRE, (0.026, 0.0105), 1.8) * taper,
+        corner=(left, right),
+        corner_lips=(left_red, right_red),
+        upper=_by_ring(archive, UPPER_RINGS, UPPER_STATIONS),
+        tuck=_by_ring(archive, TUCK_RINGS, TUCK_STATIONS),
+        contacts=_contacts(archive, points),
+    )
 
 
-def _both(archive: Archive, ring: str, station: int) -> tuple[int, int]:
-    """Vertices of a ring's station on the left and the right; the same one on the midline."""
+def _vertex(archive: Archive, ring: str, station: int, side: int) -> int:
+    """Number of the vertex at a ring's station, on the left (0) or the right (1); the same on the midline."""
     left = archive.vertex[f"{ring}_{station}"]
-    return left, int(archive.mirror[left])
+    return left if side == 0 else int(archive.mirror[left])
 
 
-def _contact(archive: Archive) -> tuple[tuple[Ints, Ints, Floats, Floats], ...]:
-    """Columns of vertices that close with each pair of lip points: (upper, lower, shares), innermost m0 first."""
-    order = sorted(CONTACT_RINGS, key=lambda ring: ring != "m0")
-    columns = []
+def _by_ring(
+    archive: Archive, rings: Mapping[str, float], stations: Mapping[int, float], sides: tuple[int, ...] = (0, 1)
+) -> Floats:
+    """(V,) share of the ring times share of the station; 0 on all other vertices."""
+    weight = np.zeros(len(archive.mirror))
+    for ring, ring_share in rings.items():
+        for station, station_share in stations.items():
+            for side in sides:
+                weight[_vertex(archive, ring, station, side)] = ring_share * station_share
+    return weight
+
+
+def _contacts(archive: Archive, points: Points) -> tuple[Contact, ...]:
+    share = np.array(list(CONTACT_RINGS.values()))
+    out = []
     for side in (0, 1):
-        for up, low in CONTACT_PAIRS:
-            upper = np.array([_both(archive, ring, up)[side] for ring in order], dtype=np.int64)
-            lower = np.array([_both(archive, ring, low)[side] for ring in order], dtype=np.int64)
-            shares = np.array([CONTACT_RINGS[ring] for ring in order])
-            # The lower corner station serves two pairs; the second moves only the upper lip.
-            columns.append((upper, lower, shares, shares * (up != 4)))
-    return tuple(columns)
+        for up, low, overlap_m in CONTACT_STATIONS:
+            if up == 0 and side == 1:
+                continue  # the midline, which belongs to both sides
+            upper, lower = (np.array([_vertex(archive, r, s, side) for r in CONTACT_RINGS]) for s in (up, low))
+            # The lower corner station serves two stations above; the second meets it where it lies.
+            upper_part = UPPER_PART if up != 4 else 1.0
+            out.append(Contact(upper, lower, share, upper_part, points[lower[0]] - points[upper[0]], overlap_m))
+    return tuple(out)
 
 
 def move_mouth(points: Points, pose: Pose, regions: MouthRegions, measured: Measured) -> Points:
@@ -162,25 +202,9 @@ def close_lips(points: Points, pose: Pose, jaw_opening: float, regions: MouthReg
     out = points + (amount * jaw_opening) * measured.morphs["mouthClose"]
     moves = np.zeros_like(out)
     pressed = min(jaw_opening / OVERLAP_FROM, 1.0)
-    for number, (upper, lower, up_share, low_share) in enumerate(regions.contact):
-        gap = out[lower[0]] - out[upper[0]] - regions.rest_gap[number]
-        gap[1] -= pressed * OVERLAP_M[number % len(CONTACT_PAIRS)]
-        lower_part = 1.0 - UPPER_PART if low_share.any() else 0.0
-        moves[upper] += (amount * (1.0 - lower_part)) * up_share[:, None] * gap
-        moves[lower] -= (amount * lower_part) * low_share[:, None] * gap
-    halves = np.concatenate([regions.contact[0][0], regions.contact[0][1]])
-    # Left and right columns share the midline: each was counted twice there.
-    moves[halves] *= 0.5
+    for contact in regions.contacts:
+        gap = out[contact.lower[0]] - out[contact.upper[0]] - contact.rest_gap
+        gap[1] -= pressed * contact.overlap_m
+        moves[contact.upper] += (amount * contact.upper_part) * contact.share[:, None] * gap
+        moves[contact.lower] -= (amount * (1.0 - contact.upper_part)) * contact.share[:, None] * gap
     return out + moves
-
-
-def lip_gap_m(points: Points, archive: Archive) -> float:
-    """Greatest distance between the lips over the stations where they meet, metres; about 0 when shut.
-
-    It is measured on subdivided skin or on the surface set as the height of the lower above the upper edge of
-    contact, middle to next-but-corner.
-    """
-    gaps = [
-        points[archive.vertex[f"m0_{up}"], 1] - points[archive.vertex[f"m0_{low}"], 1] for up, low in CONTACT_PAIRS[:4]
-    ]
-    return float(max(gaps))
