@@ -21,6 +21,7 @@ ORDER = (
     "jaw",
     "strip",
     "filmstrip",
+    "curves",
     "mouth",
     "gaze",
     "people",
@@ -33,6 +34,11 @@ def load(name: str):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def picture(name: str) -> str:
+    """File name of an example's picture: what its ``main`` would write."""
+    return load(name).main.__defaults__[0]
 
 
 def page() -> str:
@@ -50,7 +56,7 @@ def page() -> str:
             "",
             doc,
             "",
-            f"![{doc}](gallery/{name}.jpg)",
+            f"![{doc}](gallery/{picture(name)})",
             "",
             f"[`examples/{name}.py`](../examples/{name}.py)",
             "",
@@ -73,7 +79,7 @@ def page() -> str:
 def main(names: list[str]) -> None:
     for name in names or ORDER:
         start = time.perf_counter()
-        load(name).main(str(ROOT / "docs/gallery" / f"{name}.jpg"))
+        load(name).main(str(ROOT / "docs/gallery" / picture(name)))
         print(f"{name}: {time.perf_counter() - start:.1f} s")
     (ROOT / "docs/gallery.md").write_text(page())
 

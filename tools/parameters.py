@@ -18,8 +18,8 @@ def page() -> str:
     lines = [
         "# Parameters of the head",
         "",
-        "Made by `python tools/parameters.py` from the table itself; `mien params head` prints the same. Left and right are the",
-        "face's own. A name without its side sets both. One Parke unit is 0.16 mm (decision 0006).",
+        "Made by `python tools/parameters.py` from the table itself; `mien params head` prints the same. Left and",
+        "right are the face's own. A name without its side sets both. One Parke unit is 0.16 mm (decision 0006).",
     ]
     for group, rows in face.parameters.groups().items():
         lines += [

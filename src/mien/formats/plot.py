@@ -219,12 +219,14 @@ def _dots(timeline: Timeline, table: ParameterTable, name: str) -> tuple[Floats,
         return nothing
     given = [track.given() for _, track in tracks]
     times = np.concatenate([at for at, _ in given])
+    seen = times <= timeline.length_s  # a track may go on after the film ends; the page does not
+    times = times[seen]
     row = table.index[name]
     curve = timeline.values(times, table)[:, row]
     if len(tracks) > 1 or tracks[0][0] != "replace":
         # What was given is not what is seen where layers are mixed: the dots then say when, not how much.
         return times, curve, np.ones(len(times), dtype=np.bool_)
-    values = np.clip(np.concatenate([numbers for _, numbers in given]), table.lows[row], table.highs[row])
+    values = np.clip(np.concatenate([numbers for _, numbers in given])[seen], table.lows[row], table.highs[row])
     before = timeline.values(np.nextafter(times, -math.inf), table)[:, row]
     near = 1e-6 * (table.highs[row] - table.lows[row])
     return times, values, (np.abs(values - curve) <= near) | (np.abs(values - before) <= near)
