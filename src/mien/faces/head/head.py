@@ -204,8 +204,7 @@ class Head:
     @cached_property
     def _rest(self) -> Mapping[str, Points]:
         """Part -> (N, 3) m of what is not bound to the skin."""
-        rest = {**self._layout.rest, "collar": self._archive.floats("collar_points")}
-        return {name: carry(points, self._archive, self.residual) for name, points in rest.items()}
+        return {name: carry(points, self._archive, self.residual) for name, points in self._layout.rest.items()}
 
     @cached_property
     def _layout(self) -> Layout:

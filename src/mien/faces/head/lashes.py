@@ -58,6 +58,8 @@ def lash_points(lashes: Lashes, skin: Points, eye: Eye, side: str) -> Points:
 
 
 CARUNCLE_QUADS = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 5, 6]])
+CARUNCLE_MIRROR = (0, 3, 6, 1, 4, 5, 2)
+"""Vertex that each becomes in the mirror: upper and lower change places, so that the polygons still face outwards."""
 
 
 def caruncle(skin: Points, eye: Eye, side: str, archive: Archive) -> Points:
@@ -75,5 +77,4 @@ def caruncle(skin: Points, eye: Eye, side: str, archive: Archive) -> Points:
     upper, lower = (centre + (vertex(name) * 0.4 + vertex("e0_0") * 0.6 - centre) * 0.985 for name in ("e0_1", "e0_11"))
     bulge = (corner + upper + lower + ball) * 0.25 + np.array([0.0, 0.0, 0.0005])
     points = np.stack([corner, upper, above, lower, bulge, ball, below])
-    # The right side is a mirror image: swap upper and lower so that the polygons still face outwards.
-    return points if side == "left" else points[[0, 3, 6, 1, 4, 5, 2]]
+    return points if side == "left" else points[list(CARUNCLE_MIRROR)]

@@ -22,6 +22,7 @@ Floats = NDArray[np.float64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 Kind = Literal["cage", "surface"]
 
+BALD = "bald"
 LID_RINGS = ("hidden", "inner", "margin", "lip", "crease", "fold")
 
 
@@ -69,6 +70,21 @@ class Measured:
     jaw_residual: Points
     morphs: Mapping[str, Points]
     lids: Lids
+
+
+@dataclass(frozen=True, eq=False)
+class Hair:
+    """A hair style as shells around the skull.
+
+    Attributes:
+        points: (N, 3) m.
+        quads: (F, 4).
+        shade: (N, 2) brightness, and share of the skin's colour at the hairline.
+    """
+
+    points: Points
+    quads: Ints
+    shade: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +137,20 @@ class Archive:
     @cached_property
     def hair_styles(self) -> tuple[str, ...]:
         """Names of the hair styles that ship, bald first."""
-        return ("bald", *(n[5:-7] for n in self.arrays if n.startswith("hair_") and n.endswith("_points")))
+        return (BALD, *(n[5:-7] for n in self.arrays if n.startswith("hair_") and n.endswith("_points")))
+
+    def hair(self, style: str) -> Hair:
+        """A hair style; that of the bald has no points.
+
+        Raises:
+            UnknownNameError: there is no such hair style.
+        """
+        if style not in self.hair_styles:
+            raise UnknownNameError("hair style", style, self.hair_styles)
+        if style == BALD:
+            return Hair(np.zeros((0, 3)), np.zeros((0, 4), dtype=np.int64), np.zeros((0, 2)))
+        name = f"hair_{style}"
+        return Hair(self.floats(f"{name}_points"), self.ints(f"{name}_quads"), self.floats(f"{name}_shade"))
 
     @cache  # noqa: B019 - one archive lives as long as the process
     def measured(self, kind: Kind) -> Measured:

@@ -8,15 +8,15 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from mien.core import Material, Pose, Topology, UnknownNameError, build_topology
+from mien.core import Material, Pose, Topology, build_topology
 from mien.core.mesh import Ints, Points
 
 from . import shades
 from .brows import brow_strips
 from .creases import creased_skin
 from .eyes import CLASSIC, SMOOTH, SPOT_SIDES, eye_polygons, eye_shades
-from .lashes import CARUNCLE_QUADS, lashes
-from .measured import Archive, Floats, Kind
+from .lashes import CARUNCLE_MIRROR, CARUNCLE_QUADS, lashes
+from .measured import Archive, Floats, Hair, Kind
 
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
 EYE = Material(gloss=0.1, gloss_power=60, round=True)
@@ -30,6 +30,7 @@ HAIR = {
     "afro": Material(gloss=0.015, gloss_power=8, two_sided=True),
     "crop": Material(gloss=0.06, gloss_power=20, two_sided=True),
 }
+INSIDE = {"teeth": TOOTH, "gums": WET, "tongue": WET}
 HAIR_DEFAULT = Material(gloss=0.11, gloss_power=22, two_sided=True)
 
 DEEP_TOOTH = (0.10, 0.055, 0.045)
@@ -42,11 +43,14 @@ class Layout:
     """The order of the parts.
 
     Attributes:
+        archive: measured arrays.
         topology: of the whole head.
         span: part -> its run of vertices.
         rest: part -> (N, 3) m of the parts that are modelled in place.
         lower: part -> (N,) whether a vertex belongs to the lower jaw.
         mirror: (V,) vertex in the mirror, -1 for hair.
+        hair: its style.
+        sides: of the pupil and of every ring of an eye.
         skin: (N,) measured vertex of each vertex of the skin, which doubles some along creases.
     """
 
@@ -56,7 +60,7 @@ class Layout:
     rest: Mapping[str, Points]
     lower: Mapping[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]
     mirror: Ints
-    hair: str
+    hair: Hair
     sides: int
     skin: Ints
 
@@ -71,36 +75,26 @@ class Layout:
         """Part -> (N, 3) linear RGB; the eyes without the shadow of the lids."""
         archive, rest = self.archive, self.rest
         of = partial(shades.color_of, pose)
+        band = archive.ints("collar_quads")[archive.ints("collar_band").astype(bool)]
         out = {
-            "skin": shades.blend(self._region_weights(), shades.regions(pose)) * shades.skin_shade(archive)[self.skin]
+            "skin": shades.blend(self._region_weights(), shades.regions(pose)) * shades.skin_shade(archive)[self.skin],
+            "teeth": of("tooth")
+            * shades.tooth_light(archive)
+            * shades.depth_shade(rest["teeth"], 0.086, 0.03, DEEP_TOOTH),
+            "gums": of("gum") * shades.depth_shade(rest["gums"], 0.092, 0.024, DEEP_FLESH),
+            "tongue": of("tongue") * shades.depth_shade(rest["tongue"], 0.088, 0.034, DEEP_FLESH),
+            "collar": shades.collar_color(pose, len(archive.floats("collar_points")), band),
+            "hair": shades.hair_color(pose, self.hair.shade),
         }
-        eye = np.concatenate([of(name) * factor for name, factor in eye_shades(self.sides)])
-        corner = 0.5 * of("blush") + 0.5 * np.array([0.57, 0.147, 0.133])
-        lash = lashes(archive)
-        dark = np.tile(of("eyebrow") * 0.12, (len(lash.index[0]), 1))
-        dark[np.unique(lash.quads[lash.lower])] = 0.12 * of("eyebrow") + 0.62 * of("shade")
         strip = brow_strips(archive, 0.0)
-        brow = shades.brow_color(pose, strip.along, strip.across)
-        for side in ("left", "right"):
-            out[f"eye.{side}"] = np.minimum(eye, 1.0)
-            out[f"spot.{side}"] = np.tile(of("spot"), (SPOT_SIDES, 1))
-            out[f"caruncle.{side}"] = np.tile(corner, (7, 1))
-            out[f"lash.{side}"] = dark
-            out[f"brow.{side}"] = brow
-        out["teeth"] = (
-            of("tooth") * shades.tooth_light(archive) * shades.depth_shade(rest["teeth"], 0.086, 0.03, DEEP_TOOTH)
-        )
-        out["gums"] = of("gum") * shades.depth_shade(rest["gums"], 0.092, 0.024, DEEP_FLESH)
-        out["tongue"] = of("tongue") * shades.depth_shade(rest["tongue"], 0.088, 0.034, DEEP_FLESH)
-        band = archive.ints("collar_band").astype(bool)
-        cloth = np.tile(of("garment"), (len(archive.floats("collar_points")), 1))
-        cloth[np.unique(archive.ints("collar_quads")[band])] *= 0.82
-        out["collar"] = cloth
-        if self.hair != "bald":
-            out["hair"] = shades.hair_color(pose, archive.floats(f"hair_{self.hair}_shade"))
-        else:
-            out["hair"] = np.zeros((0, 3))
-        return out
+        both_sides = {
+            "eye": np.minimum(np.concatenate([of(name) * factor for name, factor in eye_shades(self.sides)]), 1.0),
+            "spot": np.tile(of("spot"), (SPOT_SIDES, 1)),
+            "caruncle": np.tile(shades.caruncle_color(pose), (len(CARUNCLE_MIRROR), 1)),
+            "lash": shades.lash_color(pose, lashes(archive)),
+            "brow": shades.brow_color(pose, strip.along, strip.across),
+        }
+        return {**out, **{f"{name}.{side}": rgb for side in ("left", "right") for name, rgb in both_sides.items()}}
 
     def _region_weights(self) -> Floats:
         """(N, R) weights of the skin's colour regions; at a crease around the lips each side has its own colour."""
@@ -121,65 +115,68 @@ def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
     Raises:
         UnknownNameError: there is no such hair style.
     """
-    if hair not in archive.hair_styles:
-        raise UnknownNameError("hair style", hair, archive.hair_styles)
-    lash, strip = lashes(archive), brow_strips(archive, 0.0)
     classic = kind == "surface"
     sides = CLASSIC if classic else SMOOTH
     creased = creased_skin(archive)
     quads, skin = (creased.quads, creased.source) if classic else (archive.quads, np.arange(len(archive.mirror)))
-    pupil, rings = eye_polygons(sides)
-    eye_count = int(rings.max()) + 1
-    rest: dict[str, Points] = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue")}
-    bald = hair == "bald"
-    rest["hair"] = np.zeros((0, 3)) if bald else archive.floats(f"hair_{hair}_points")
-    rows: list[tuple[str, int, list[Ints], Material]] = [("skin", len(skin), [quads], SKIN)]
-    for side in ("left", "right"):
-        flip = slice(None) if side == "right" else slice(None, None, -1)
-        rows += [
-            (f"eye.{side}", eye_count, [pupil, rings], EYE),
-            (f"spot.{side}", SPOT_SIDES, [np.arange(SPOT_SIDES)[None]], SPOT),
-            (f"caruncle.{side}", 7, [CARUNCLE_QUADS], WET),
-            (f"lash.{side}", len(lash.index[0]), [lash.quads], LASH),
-            (f"brow.{side}", len(strip.offset), [strip.quads[:, flip]], BROW),
-        ]
-    for name, material in (("teeth", TOOTH), ("gums", WET), ("tongue", WET)):
-        rows.append((name, len(rest[name]), [archive.ints(f"{name}_quads")], material))
-    rows.append(("collar", len(archive.floats("collar_points")), [archive.ints("collar_quads")], CLOTH))
-    if not bald:
-        rows.append(("hair", len(rest["hair"]), [archive.ints(f"hair_{hair}_quads")], HAIR.get(hair, HAIR_DEFAULT)))
+    style = archive.hair(hair)
+    rest = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue", "collar")}
+    rest["hair"] = style.points
     span: dict[str, slice] = {}
     polygons: list[tuple[str, Ints, Material]] = []
     first = 0
-    for name, count, faces, material in rows:
+    rows = [
+        ("skin", len(skin), quads, SKIN),
+        *_rows_of_an_eye(archive, "left", sides),
+        *_rows_of_an_eye(archive, "right", sides),
+        *((name, len(rest[name]), archive.ints(f"{name}_quads"), material) for name, material in INSIDE.items()),
+        ("collar", len(rest["collar"]), archive.ints("collar_quads"), CLOTH),
+        ("hair", len(rest["hair"]), style.quads, HAIR.get(hair, HAIR_DEFAULT)),
+    ]
+    for name, count, numbers, material in rows:
         span[name] = slice(first, first + count)
-        wide = max(face.shape[1] for face in faces)
-        padded = [np.concatenate([f, np.repeat(f[:, -1:], wide - f.shape[1], axis=1)], axis=1) for f in faces]
-        polygons.append((name, np.concatenate(padded) + first, material))
+        if len(numbers):
+            polygons.append((name, numbers + first, material))
         first += count
-    span.setdefault("hair", slice(first, first))
     lower = {name: archive.ints(f"{name}_lower").astype(bool) for name in ("teeth", "gums")}
-    topology = build_topology(first, polygons)
-    mirror = _mirror(archive, span, rest, first, sides)
+    mirror = _mirror(span, rest, first, sides)
     mirror[span["skin"]] = creased.mirror if classic else archive.mirror
-    return Layout(archive, topology, span, rest, lower, mirror, hair, sides, skin)
+    return Layout(archive, build_topology(first, polygons), span, rest, lower, mirror, style, sides, skin)
 
 
-def _mirror(archive: Archive, span: Mapping[str, slice], rest: Mapping[str, Points], count: int, sides: int) -> Ints:
+def _rows_of_an_eye(archive: Archive, side: str, sides: int) -> list[tuple[str, int, Ints, Material]]:
+    """Name, number of vertices, polygons and material of each part around an eye."""
+    lash, strip = lashes(archive), brow_strips(archive, 0.0)
+    pupil, rings = eye_polygons(sides)
+    # The ring quads padded to the pupil's corners, as ``build_topology`` takes them.
+    padded = np.concatenate([rings, np.repeat(rings[:, -1:], sides - rings.shape[1], axis=1)], axis=1)
+    return [
+        (f"eye.{side}", int(rings.max()) + 1, np.concatenate([pupil, padded]), EYE),
+        (f"spot.{side}", SPOT_SIDES, np.arange(SPOT_SIDES)[None], SPOT),
+        (f"caruncle.{side}", len(CARUNCLE_MIRROR), CARUNCLE_QUADS, WET),
+        (f"lash.{side}", len(lash.index[0]), lash.quads, LASH),
+        (f"brow.{side}", len(strip.offset), strip.quads if side == "right" else strip.quads[:, ::-1], BROW),
+    ]
+
+
+def _mirror(span: Mapping[str, slice], rest: Mapping[str, Points], count: int, sides: int) -> Ints:
+    """(V,) vertex in the mirror, -1 for hair and skin."""
     mirror = np.full(count, -1, dtype=np.int64)
     # Eyes: corner j lies at (j + 1/2) steps from the own left, so its mirror image is corner n/2 - 1 - j.
     for name, corners in (("eye", sides), ("spot", SPOT_SIDES)):
-        length = span[f"{name}.left"].stop - span[f"{name}.left"].start
-        ring, corner = np.divmod(np.arange(length), corners)
+        ring, corner = np.divmod(_numbers(span[f"{name}.left"]), corners)
         twin = ring * corners + (corners // 2 - 1 - corner) % corners
         _pair(mirror, span, name, twin)
-    _pair(mirror, span, "caruncle", np.array([0, 3, 6, 1, 4, 5, 2]))
+    _pair(mirror, span, "caruncle", np.array(CARUNCLE_MIRROR))
     for name in ("lash", "brow"):
-        _pair(mirror, span, name, np.arange(span[f"{name}.left"].stop - span[f"{name}.left"].start))
-    for name in ("teeth", "gums", "tongue"):
+        _pair(mirror, span, name, _numbers(span[f"{name}.left"]))
+    for name in (*INSIDE, "collar"):
         mirror[span[name]] = span[name].start + _nearest(rest[name])
-    mirror[span["collar"]] = span["collar"].start + _nearest(archive.floats("collar_points"))
     return mirror
+
+
+def _numbers(run: slice) -> Ints:
+    return np.arange(run.stop - run.start)
 
 
 def _pair(mirror: Ints, span: Mapping[str, slice], name: str, twin: Ints) -> None:

@@ -55,13 +55,12 @@ def make_head(
     doc: str,
     residual: Residual | None = None,
 ) -> Head:
-    """A head from choices by name; ``values`` win over the palette.
+    """A head from choices by name; ``values`` win over the palette. Mistakes show here, not in the first picture.
 
     Raises:
         UnknownNameError, RangeError: a choice or value is not there or does not fit.
     """
-    if hair not in archive().hair_styles:
-        raise UnknownNameError("hair style", hair, archive().hair_styles)
+    archive().hair(hair)
     palettes = palette_presets()
     if palette not in palettes:
         raise UnknownNameError("palette", palette, palettes)

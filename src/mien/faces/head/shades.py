@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mien.core import Pose
-from mien.core.mesh import Points
+from mien.core.mesh import Ints, Points
 
+from .lashes import Lashes
 from .measured import Archive, Floats
 
 AMBIENT_POWER = np.array([1.25, 1.75, 1.85])
@@ -72,6 +73,26 @@ def brow_color(pose: Pose, along: Floats, across: Floats) -> Floats:
     edge = 0.16 * np.clip((np.abs(across) - 0.3) / 0.2, 0.0, 1.0)[:, None]
     streak = 1.0 + 0.22 * (np.mod(np.rint(along * 14.0) + np.rint(across * 3.0), 2.0)[:, None] - 0.5)
     return hair * streak * (1.0 - fade - edge) + skin * (fade + edge)
+
+
+def caruncle_color(pose: Pose) -> Floats:
+    """(3,) of the pink corner of the eye."""
+    return 0.5 * color_of(pose, "blush") + 0.5 * np.array([0.57, 0.147, 0.133])
+
+
+def lash_color(pose: Pose, lashes: Lashes) -> Floats:
+    """(N, 3) of one eye's lashes: much darker than the brows; the lower ones are fine, so the skin shows through."""
+    hair = color_of(pose, "eyebrow") * 0.12
+    out = np.tile(hair, (len(lashes.index[0]), 1))
+    out[np.unique(lashes.quads[lashes.lower])] = hair + 0.62 * color_of(pose, "shade")
+    return out
+
+
+def collar_color(pose: Pose, count: int, band: Ints) -> Floats:
+    """(N, 3) of ``count`` vertices of the garment; the polygons (F, 4) of the neckband are darker."""
+    out = np.tile(color_of(pose, "garment"), (count, 1))
+    out[np.unique(band)] *= 0.82
+    return out
 
 
 def lid_shadow(points: Points, centre: Floats) -> Floats:
