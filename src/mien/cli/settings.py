@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mien.core import MienError, RangeError, Scene, UnknownNameError
+from mien.core import MienError, RangeError, Scene, UnknownNameError, exact
 from mien.core.scene import VIEWS, Rgba, Vector
 
 THREADS_HIGH = 256
@@ -143,9 +143,5 @@ def _unknown_color(text: str) -> MienError:
 
 
 def _linear(value: int) -> float:
-    """Linear light 0..1 of an sRGB byte, rounded so that no C library's last place shows.
-
-    Source: IEC 61966-2-1.
-    """
-    share = value / 255.0
-    return round(share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4, 6)
+    """Linear light 0..1 of an sRGB byte, to six places."""
+    return round(exact.srgb_to_linear(value / 255.0), 6)

@@ -84,6 +84,29 @@ def exp(x: ArrayLike) -> NDArray[np.float64]:
     return np.where(x < -700.0, 0.0, value)
 
 
+def smoothstep(x: ArrayLike) -> NDArray[np.float64]:
+    """0 below 0, 1 above 1, and 3x^2 - 2x^3 between, any shape."""
+    bounded = np.clip(np.asarray(x, dtype=np.float64), 0.0, 1.0)
+    return bounded * bounded * (3.0 - 2.0 * bounded)
+
+
+def srgb_to_linear(share: float) -> float:
+    """Linear light 0..1 of an sRGB value 0..1.
+
+    Source: IEC 61966-2-1 (sRGB).
+    """
+    if share <= 0.04045:
+        return share / 12.92
+    base = (share + 0.055) / 1.055
+    square = base * base
+    # base ** 2.4 as its square times the fifth root of that square, by Newton's method.
+    root = base
+    for _ in range(60):
+        power = root * root * root * root
+        root = (4.0 * root + square / power) / 5.0
+    return square * root
+
+
 def round_points(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points on the grid of 2^-20 m, so that a last-place difference upstream cannot reach a picture."""
     return np.rint(points * (1.0 / GRID_M)) * GRID_M

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from . import exact
 from .errors import RangeError, UnknownNameError
 from .face import Face
 from .parameters import Pose
@@ -104,9 +105,8 @@ class Scene:
     def turned(self, yaw_deg: float, pitch_deg: float = 0.0, distance_m: float | None = None) -> Scene:
         """The scene from ``yaw_deg`` around the face's own left and ``pitch_deg`` above, at the same distance."""
         distance = math.dist(self.position, self.at) if distance_m is None else distance_m
-        yaw, pitch = math.radians(yaw_deg), math.radians(pitch_deg)
-        way = (math.sin(yaw) * math.cos(pitch), math.sin(pitch), math.cos(yaw) * math.cos(pitch))
-        # Rounded to a micrometre, so that no C library's last place decides a picture.
+        (sin_yaw, cos_yaw), (sin_pitch, cos_pitch) = _sin_cos(yaw_deg), _sin_cos(pitch_deg)
+        way = (sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch)
         x, y, z = (round(a + distance * w, 6) for a, w in zip(self.at, way, strict=True))
         return replace(self, position=(x, y, z))
 
@@ -132,7 +132,8 @@ class Scene:
 def studio_lights(scene: Scene) -> tuple[Light, ...]:
     """A warm key from the left of the picture, a cool fill, two rims; they move around with the viewer."""
     dx, _, dz = (p - a for p, a in zip(scene.position, scene.at, strict=True))
-    yaw = math.atan2(dx, dz)
+    level = math.sqrt(dx * dx + dz * dz)
+    aside, ahead = (dx / level, dz / level) if level else (0.0, 1.0)
     rows = (  # degrees around from the viewer, degrees up, colour, wrap
         (-38.0, 34.0, (1.00, 0.925, 0.83), 0.25),
         (36.0, 6.0, (0.23, 0.25, 0.29), 0.35),
@@ -141,10 +142,16 @@ def studio_lights(scene: Scene) -> tuple[Light, ...]:
     )
     lights = []
     for around, up, rgb, wrap in rows:
-        a, e = yaw + math.radians(around), math.radians(up)
-        x, y, z = (round(3.0 * c, 6) for c in (math.sin(a) * math.cos(e), math.sin(e), math.cos(a) * math.cos(e)))
+        (sin_around, cos_around), (sin_up, cos_up) = _sin_cos(around), _sin_cos(up)
+        across, along = aside * cos_around + ahead * sin_around, ahead * cos_around - aside * sin_around
+        x, y, z = (round(3.0 * c, 6) for c in (across * cos_up, sin_up, along * cos_up))
         lights.append(Light((x, y, z), rgb, wrap))
     return tuple(lights)
+
+
+def _sin_cos(angle_deg: float) -> tuple[float, float]:
+    sine, cosine = exact.sin_cos(math.radians(angle_deg))
+    return float(sine), float(cosine)
 
 
 def fill_rows(face: Face, pose: Pose, scene: Scene) -> Pose:

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import Scene
+from mien.core import Scene, exact
 
 Floats32 = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
@@ -22,23 +22,10 @@ def srgb_tables() -> tuple[Bytes, Floats32]:
 
     Source: IEC 61966-2-1 (sRGB).
     """
-    middles = [_linear((code + 0.5) / 255.0) for code in range(255)]
+    middles = [exact.srgb_to_linear((code + 0.5) / 255.0) for code in range(255)]
     borders = np.array([*middles, np.inf], dtype=np.float32)
     starts = np.arange(BUCKETS + 1, dtype=np.float32) / np.float32(BUCKETS)
     return np.searchsorted(borders, starts, side="right").astype(np.uint8), borders
-
-
-def _linear(value: float) -> float:
-    if value <= 0.04045:
-        return value / 12.92
-    base = (value + 0.055) / 1.055
-    square = base * base
-    # base ** 2.4 as square times its fifth root (by Newton's method): no library's ``pow`` decides a code.
-    root = base
-    for _ in range(60):
-        power = root * root * root * root
-        root = (4.0 * root + square / power) / 5.0
-    return square * root
 
 
 def encode(linear: Floats32) -> Bytes:

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mien.core import Cue
+from mien.core import Cue, exact
 
 from .mouth_table import Floats, phone_table
 
@@ -160,8 +160,8 @@ def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
         if hold.channel == channel:
             low, high = np.searchsorted(times_s, [hold.start_s - hold.rise_s, hold.end_s + hold.fall_s])
             t = times_s[low : high + 1]
-            rise = _smooth((t - (hold.start_s - hold.rise_s)) / hold.rise_s)
-            fall = _smooth(((hold.end_s + hold.fall_s) - t) / hold.fall_s)
+            rise = exact.smoothstep((t - (hold.start_s - hold.rise_s)) / hold.rise_s)
+            fall = exact.smoothstep(((hold.end_s + hold.fall_s) - t) / hold.fall_s)
             shape = np.where(t < hold.start_s, rise, np.where(t > hold.end_s, fall, 1.0))
             value[low : high + 1] = np.maximum(value[low : high + 1], shape)
     return value
@@ -169,11 +169,6 @@ def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
 
 def _gap(first: Hold, second: Hold) -> float:
     return SAME_GAP_S if first.channel == second.channel else OTHER_GAP_S
-
-
-def _smooth(x: Floats) -> Floats:
-    x = np.clip(x, 0.0, 1.0)
-    return x * x * (3.0 - 2.0 * x)
 
 
 def _pool(places: Sequence[float]) -> list[float]:

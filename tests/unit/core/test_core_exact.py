@@ -101,3 +101,16 @@ def test_one_number_gives_the_bits_of_an_array():
     sine, cosine = exact.sin_cos(angles)
     for number, angle in enumerate(angles):
         assert exact.sin_cos(float(angle)) == (sine[number], cosine[number])
+
+
+def test_srgb_to_linear_is_the_standards_curve():
+    assert exact.srgb_to_linear(0.0) == 0.0
+    assert exact.srgb_to_linear(1.0) == pytest.approx(1.0, abs=1e-15)
+    for code in range(256):
+        share = code / 255.0
+        wanted = share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
+        assert exact.srgb_to_linear(share) == pytest.approx(wanted, rel=1e-14)
+
+
+def test_smoothstep_goes_from_0_to_1_and_stays_there():
+    np.testing.assert_array_equal(exact.smoothstep([-1.0, 0.0, 0.25, 0.5, 1.0, 7.0]), [0, 0, 0.15625, 0.5, 1, 1])

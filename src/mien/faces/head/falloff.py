@@ -10,17 +10,11 @@ from mien.core.mesh import Points
 from .measured import Floats
 
 
-def smoothstep(x: Floats) -> Floats:
-    """0 below 0, 1 above 1, and 3x^2 - 2x^3 between."""
-    bounded = np.clip(x, 0.0, 1.0)
-    return bounded * bounded * (3.0 - 2.0 * bounded)
-
-
 def ellipse(points: Points, centre: tuple[float, float], radii: tuple[float, float], reach: float) -> Floats:
     """(V,) 1 inside an ellipse of the frontal plane, fading to 0 at ``reach`` times its radii; 0 behind the ears."""
     dx, dy = (points[:, 0] - centre[0]) / radii[0], (points[:, 1] - centre[1]) / radii[1]
     distance = np.sqrt(dx * dx + dy * dy)
-    return smoothstep((reach - distance) / (reach - 1.0)) * (points[:, 2] > 0.03)
+    return exact.smoothstep((reach - distance) / (reach - 1.0)) * (points[:, 2] > 0.03)
 
 
 def bell(points: Points, centre: tuple[float, float], radii: tuple[float, float]) -> Floats:
@@ -32,4 +26,4 @@ def bell(points: Points, centre: tuple[float, float], radii: tuple[float, float]
 
 def own_side(points: Points, side: int, ramp_m: float) -> Floats:
     """(V,) 0 on the midline and beyond, 1 from ``ramp_m`` on the left (side 1) or right (side -1)."""
-    return smoothstep(points[:, 0] * side / ramp_m)
+    return exact.smoothstep(points[:, 0] * side / ramp_m)

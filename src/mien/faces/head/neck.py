@@ -7,7 +7,6 @@ import numpy as np
 from mien.core import Pose, exact
 from mien.core.mesh import Points
 
-from .falloff import smoothstep
 from .measured import Floats
 from .units import DEG
 
@@ -21,7 +20,7 @@ RIGID_ABOVE_M = 0.055
 def neck_share(points: Points) -> Floats:
     """(V,) share of the head's rotation: 0 at the collar, 1 from the chin up."""
     height = points[:, 1] - (BASE_Y_M + BASE_SLOPE * points[:, 2])
-    return smoothstep(height / RIGID_ABOVE_M)
+    return exact.smoothstep(height / RIGID_ABOVE_M)
 
 
 def head_angles(pose: Pose) -> tuple[float, float, float]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 
-from mien.core import Preset
+from mien.core import Preset, exact
 
 Rgb = tuple[float, float, float]
 
@@ -15,13 +15,9 @@ DEFAULT = "beige"
 
 
 def linear(hex_color: str) -> Rgb:
-    """Linear RGB of ``#rrggbb``, rounded so that no C library's power function decides a bit."""
-    red, green, blue = (int(hex_color[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return (_linear(red), _linear(green), _linear(blue))
-
-
-def _linear(value: float) -> float:
-    return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 5)
+    """Linear RGB of ``#rrggbb``, to five places."""
+    red, green, blue = (round(exact.srgb_to_linear(int(hex_color[i : i + 2], 16) / 255.0), 5) for i in (1, 3, 5))
+    return red, green, blue
 
 
 @cache

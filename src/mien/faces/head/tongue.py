@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mien.core import Pose
+from mien.core import Pose, exact
 from mien.core.mesh import Points
-
-from .falloff import smoothstep
 
 RAISE_M = np.array([0.0, 0.0105, 0.0005])
 OUT_M = np.array([0.0, 0.0035, 0.0125])
@@ -22,5 +20,5 @@ def move_tongue(points: Points, pose: Pose) -> Points:
     up, out = pose["tongue.raise"], pose["tongue.out"]
     if not (up or out):
         return points
-    share = smoothstep((points[:, 2] - BACK_Z_M) / (TIP_Z_M - BACK_Z_M))[:, None]
+    share = exact.smoothstep((points[:, 2] - BACK_Z_M) / (TIP_Z_M - BACK_Z_M))[:, None]
     return points + share * (up * RAISE_M + out * OUT_M)
