@@ -1,0 +1,69 @@
+"""Meshes, tracks made from cues, and pictures have the same bits whatever NumPy and Numba find in the processor."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+PROGRAM = """
+import hashlib
+import numpy as np
+from mien.core import Cue, Scene, Sound
+from mien.faces import load_face
+from mien.faces.head.head import Head
+from mien.faces.head.measured import archive
+from mien.faces.head.residual import Residual
+from mien.perform import perform
+from mien.render import draw
+from mien.speech import Speech
+from mien.timeline import json_text
+
+def show(name, *arrays):
+    print(name, hashlib.sha256(b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)).hexdigest())
+
+head = load_face("head")
+pose = head.neutral.replace({"jaw.rotation": 7, "mouth.closure": 0.3, "eyelid.opening": 0.2, "head.turn": 20,
+                             "eye.turn": 11, "mouth.corner.up": 9, "target.x": 0.3, "mouth.tuck": -5})
+for face in (head, head.unsubdivided):
+    mesh = face.shape(pose)
+    show("mesh", mesh.points, mesh.colors, mesh.normals)
+points = archive().floats("cage")
+swell = 0.02 * points * (points[:, 2:] > 0)
+someone = Head(hair="crop", residual=Residual(swell, swell, np.array([0.0004, 0.0, 0.0005]), 1.02))
+show("someone", someone.shape(someone.neutral.replace({"eyelid.opening": 0.0})).points)
+
+symbols = "SIL HH AH0 L OW1 SIL HH AW1 HH AE1 P IY0 IH0 Z DH AH0 F AO1 R M SIL".split()
+phones = tuple(Cue(0.09 * k, 0.09 * (k + 1), symbol) for k, symbol in enumerate(symbols))
+words = (Cue(0.09, 0.45, "Hello"), Cue(0.54, 1.0, "happy"), Cue(1.2, 1.8, "form"))
+speech = Speech("", Sound.silence(phones[-1].end_s), words, phones, (), "none")
+timeline = perform(speech, head, seed=4, emotion="laugh").timeline
+show("tracks", np.frombuffer("".join(json_text(timeline)).encode(), np.uint8))
+show("values", *(timeline.values(timeline.frame_times(fps), head.parameters) for fps in (24, 29.97, 60)))
+show("picture", draw(head, pose, Scene(size_px=(96, 96)).seen("side")))
+"""
+
+
+def digests(**environment):
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PROGRAM],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.slow
+def test_the_processor_decides_no_bit(tmp_path):
+    plain = {
+        "NPY_DISABLE_CPU_FEATURES": " ".join(np._core._multiarray_umath.__cpu_dispatch__),
+        "NUMBA_CPU_NAME": "generic",
+        "NUMBA_CACHE_DIR": str(tmp_path),
+    }
+    here = digests()
+    assert len(here) == 6
+    assert digests(**plain) == here
