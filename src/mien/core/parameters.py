@@ -246,7 +246,10 @@ class Pose:
         return Pose(self.table, values)
 
     def blend(self, other: Pose, amount: float) -> Pose:
-        """The pose ``amount`` of the way to another: 0 gives this one, 1 the other."""
+        """The pose ``amount`` of the way to another: 0 gives this one, 1 the other.
+
+        Source: Parke 1974, section 2.1; his coefficient, as printed, runs the other way: at 1 it gives value 1.
+        """
         if other.table is not self.table:
             raise MienError("poses of different faces cannot be blended")
         return Pose(self.table, self.values * (1.0 - amount) + other.values * amount)

@@ -1,4 +1,8 @@
-"""Parke's four parameter change functions: how a value goes from its first to its last."""
+"""Parke's four parameter change functions: how a value goes from its first to its last.
+
+Source: Parke 1974, section 4.1. Print lost the brackets of three of them; each runs from 0 to 1 (Parke 1972 has the
+cosine right).
+"""
 
 from __future__ import annotations
 
@@ -25,7 +29,7 @@ def linear(fraction: ArrayLike) -> NDArray[np.float64]:
 def cosine(fraction: ArrayLike) -> NDArray[np.float64]:
     """(1 - cos(pi f)) / 2: slow at both ends, any shape.
 
-    Source: Parke 1974, section 4.1 (the brackets are lost in print; Parke 1972 has them).
+    Source: Parke 1972 and 1974, section 4.1.
     """
     f = linear(fraction)
     return _to_one(f, 0.5 * (1.0 - exact.cos(f * math.pi)))

@@ -104,6 +104,22 @@ def test_the_spot_halves_the_angle_between_light_and_viewer():
     assert shown == 1.0
 
 
+def test_the_spot_depends_on_where_the_eye_is_and_on_nothing_else():
+    light, viewer, place = np.array([-0.4, 0.3, 0.5]), np.array([0.1, 0.0, 0.6]), np.array([0.032, 0.03, 0.07])
+    middle = eyes.spot_direction(eyes.Eye(np.zeros(3), 0.012, AHEAD), light, viewer)
+    moved = eyes.spot_direction(eyes.Eye(place, 0.012, AHEAD), light + place, viewer + place)
+    stayed = eyes.spot_direction(eyes.Eye(place, 0.012, AHEAD), light, viewer)
+    np.testing.assert_allclose(moved[0], middle[0], atol=1e-14)
+    assert np.abs(stayed[0] - middle[0]).max() > 0.01
+
+
+def test_an_iris_too_large_for_a_lens_reflects_on_the_ball():
+    eye = eyes.Eye(np.zeros(3), 1.0, AHEAD, iris=0.8)
+    direction, _ = eyes.spot_direction(eye, np.array([0.0, 1e6, 1e6]), np.array([0.0, 0.0, 1e6]))
+    half = math.radians(22.5)
+    np.testing.assert_allclose(direction, (0.0, math.sin(half), math.cos(half)), atol=1e-5)
+
+
 def test_the_spot_follows_light_and_viewer():
     light, viewer = np.array([-1.0, 1.0, 2.0]), np.array([0.0, 0.0, 1.0])
     eye = eyes.Eye(np.zeros(3), 0.012, AHEAD)

@@ -1,7 +1,7 @@
 """Eyeballs by procedure: pupil, iris, fringe and whites as rings of quadrilaterals, and the reflection spot.
 
 Source: Parke 1974, section 3.1.1, figures 3.2 to 3.4 and Appendix A. His formulas of the angles become unit
-vectors here: the same directions, without arctangents that jump (see errata: averages of angles wrap at +-pi).
+vectors here: the same directions, without arctangents whose average jumps where they wrap at +-pi.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def _aside_and_above(direction: Floats) -> tuple[Floats, Floats]:
 def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: float = 0.0) -> Floats:
     """Direction (3,) in which an eye looks to see a target, within what an eye can turn, then offset by angles.
 
-    Source: Parke 1974, Appendix A (alpha and beta of each eye by itself).
+    Source: Parke 1974, Appendix A (alpha and beta of each eye by itself; his beta is positive downwards).
     """
     x, y, z = normalised(target - centre)
     level = max(float(z), 1e-9)
@@ -106,7 +106,8 @@ def spot_direction(eye: Eye, light: Floats, viewer: Floats) -> tuple[Floats, flo
     at the iris, 45 degrees from its own axis, so its radius is sqrt(2) R_i; without a bulge (R_i >= 0.707) the
     ball itself reflects.
 
-    Source: Parke 1974, Appendix A, with the directions averaged instead of the angles.
+    Source: Parke 1974, Appendix A, with the directions averaged instead of the angles. His lens centre is in the eye's
+    coordinates, light and viewer are in the head's: the eye's place is added before they are compared.
     """
     iris = _iris(eye)
     bulge = lens_centre(iris)
@@ -149,7 +150,8 @@ def _steps(band: str, sides: int) -> int:
 def ring_radii(eye: Eye) -> tuple[tuple[float, float], ...]:
     """(cosine, sine) of the polar angle of each ring, from the pupil's edge to the back.
 
-    Source: Parke 1974, figure 3.2: x_i = sqrt(R_e^2 - R_i^2); the white's middle ring halves the rest.
+    Source: Parke 1974, figure 3.2: x_i = sqrt(R_e^2 - R_i^2), which is printed with a plus, but the rings lie on the
+    ball; sizes are shares of R_e. The white's middle ring halves the angle that is left beside the fringe.
     """
     iris = _iris(eye)
     pupil = min(max(eye.pupil, 0.01), 0.96 * iris)
