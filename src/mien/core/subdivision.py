@@ -25,7 +25,13 @@ Multiply = Callable[[SparseMatrix, NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True, eq=False)
 class Refinement:
-    """A finer topology and the matrix that makes its vertex values out of the coarse ones."""
+    """A finer topology and how its values come from the coarse ones.
+
+    Attributes:
+        topology: the finer one.
+        matrix: (V', V), makes its vertex values.
+        polygon_parent: (F',) the polygon that each of its polygons comes from.
+    """
 
     topology: Topology
     matrix: SparseMatrix
@@ -77,7 +83,8 @@ def refine(topology: Topology) -> Refinement:
 
     faces_of_edge = np.bincount(edge, minlength=edge_count)
     listed = {(min(a, b), max(a, b)) for a, b in topology.creases.tolist()}
-    sharp = (faces_of_edge != 2) | np.array([tuple(pair) in listed for pair in edges.tolist()], dtype=bool)
+    creased = np.array([tuple(pair) in listed for pair in edges.tolist()], dtype=bool)
+    sharp = (faces_of_edge != 2) | creased
 
     entries = _Entries()
     touched = np.zeros(count, dtype=bool)
@@ -90,18 +97,10 @@ def refine(topology: Topology) -> Refinement:
 
     total = count + face_count + edge_count
     matrix = SparseMatrix.from_entries(*entries.arrays(), shape=(total, count))
-    return _fine_topology(
-        topology,
-        chosen,
-        corner_chosen,
-        face_vertex,
-        edge_vertex,
-        edges,
-        sharp,
-        matrix,
-        total,
-        count + face_count,
-    )
+    middle = count + face_count + np.flatnonzero(creased)
+    creases = np.stack([edges[creased, 0], middle, middle, edges[creased, 1]], axis=1).reshape(-1, 2)
+    fine, parents = _fine_topology(topology, corner_chosen, face_vertex, edge_vertex, total, creases)
+    return Refinement(fine, matrix, parents)
 
 
 class _Entries:
@@ -193,16 +192,22 @@ def _spread(rows: Ints, faces: Ints, face_size: Ints, start: Ints) -> tuple[Ints
 
 def _fine_topology(
     topology: Topology,
-    chosen: NDArray[np.bool_],
     corner_chosen: NDArray[np.bool_],
     face_vertex: Ints,
     edge_vertex: Ints,
-    edges: Ints,
-    sharp: NDArray[np.bool_],
-    matrix: SparseMatrix,
     total: int,
-    first_edge_vertex: int,
-) -> Refinement:
+    creases: Ints,
+) -> tuple[Topology, Ints]:
+    """The finer topology and the polygon (F',) that each of its polygons comes from.
+
+    Args:
+        topology: the coarse one.
+        corner_chosen: (C,) whether a corner belongs to a polygon that is refined.
+        face_vertex: for each such corner the new vertex in its polygon.
+        edge_vertex: for each such corner the new vertex on the edge that starts there.
+        total: number of vertices of the finer topology.
+        creases: (K, 2) its creases.
+    """
     before = np.full(len(topology.corners), -1, dtype=np.int64)
     before[topology.next_corner] = np.arange(len(topology.corners))
     edge_of_corner = np.full(len(topology.corners), -1, dtype=np.int64)
@@ -236,18 +241,6 @@ def _fine_topology(
             parents.append(np.arange(part.first, part.last))
         parts.append(Part(part.name, first, first + len(sizes[-1]), part.material))
         first += len(sizes[-1])
-    listed = {(min(a, b), max(a, b)) for a, b in topology.creases.tolist()}
-    creases = [
-        pair
-        for number, (a, b) in enumerate(edges.tolist())
-        if (a, b) in listed
-        for pair in ((a, first_edge_vertex + number), (first_edge_vertex + number, b))
-    ]
-    fine = Topology(
-        total,
-        np.concatenate(corners),
-        np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64),
-        tuple(parts),
-        np.array(creases, dtype=np.int64).reshape(-1, 2),
-    )
-    return Refinement(fine, matrix, np.concatenate(parents))
+    starts = np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64)
+    fine = Topology(total, np.concatenate(corners), starts, tuple(parts), creases.astype(np.int64))
+    return fine, np.concatenate(parents)

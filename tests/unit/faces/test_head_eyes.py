@@ -177,7 +177,7 @@ def test_lids_stay_outside_the_ball(opening, target):
 
 @pytest.mark.parametrize("path", PEOPLE, ids=lambda path: path.stem)
 def test_lids_of_other_people_shut_without_a_sliver(path):
-    # These four showed one with the neutral head's arcs (137 to 529 pixels at 500 x 300).
+    # These four showed one with the neutral head's arcs (99 to 530 pixels at 500 x 300).
     residual = read_residual(path, len(archive().mirror))
     assert eye_pixels(Head(hair="bald", residual=residual), 0.0) == 0
 
