@@ -1,6 +1,6 @@
 """The types that every part of mien speaks. NumPy only."""
 
-from .cues import Cue
+from .cues import SILENCE, Cue
 from .drawing import Drawing, Path
 from .errors import LoadError, MienError, RangeError, UnknownNameError
 from .face import Face, Preset
@@ -11,6 +11,7 @@ from .sound import Sound
 from .subdivision import subdivide
 
 __all__ = [
+    "SILENCE",
     "Cue",
     "Drawing",
     "Face",

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+SILENCE = "SIL"
+"""The symbol of a pause among phones."""
+
 
 @dataclass(frozen=True, order=True)
 class Cue:

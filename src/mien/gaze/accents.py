@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
 
-from mien.core import Cue
+from mien.core import SILENCE, Cue
 
 from .chance import stream
 
@@ -87,7 +87,7 @@ def _candidates(words: Sequence[Cue], phones: Sequence[Cue]) -> list[_Candidate]
     for word in sorted(words):
         pause = False
         while place < len(phones) and phones[place].centre_s < word.start_s:
-            pause |= phones[place].symbol == "SIL" and phones[place].length_s >= PAUSE_S
+            pause |= phones[place].symbol == SILENCE and phones[place].length_s >= PAUSE_S
             place += 1
         if pause or word.end_s - begun_s > PHRASE_S:
             phrase, begun_s = phrase + 1, word.start_s

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from mien.core import Cue
+from mien.core import SILENCE, Cue
 from mien.timeline import Track
 
 from .chance import around, between, stream
@@ -59,7 +59,7 @@ def blinks(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: flo
 def blink_times(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: float = 1.0) -> list[float]:
     """When blinks start, s; each is over before the end."""
     chance = stream(seed, "blinks")
-    speaking = any(cue.symbol != "SIL" for cue in phones)
+    speaking = any(cue.symbol != SILENCE for cue in phones)
     mean = 60.0 / (often * (SPEAKING_A_MINUTE if speaking else RESTING_A_MINUTE))
     pauses = np.array(_pauses(phones))
     whole = CLOSE_S + SHUT_S + OPEN_S
@@ -79,7 +79,7 @@ def blink_times(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often
 
 def _pauses(phones: Iterable[Cue]) -> list[float]:
     """Starts of the pauses, s, but for the one before the first word."""
-    return [cue.start_s for cue in phones if cue.symbol == "SIL" and cue.length_s >= PAUSE_S and cue.start_s > 0.0]
+    return [cue.start_s for cue in phones if cue.symbol == SILENCE and cue.length_s >= PAUSE_S and cue.start_s > 0.0]
 
 
 def _draw_to_pause(due: float, pauses: np.ndarray) -> float:

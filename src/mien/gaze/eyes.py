@@ -7,7 +7,7 @@ from math import sqrt
 
 import numpy as np
 
-from mien.core import Cue
+from mien.core import SILENCE, Cue
 from mien.timeline import Track
 
 from .chance import around, between, stream
@@ -49,7 +49,7 @@ def saccades(length_s: float, seed: int, phones: Sequence[Cue] = ()) -> dict[str
         phones: what is said; the eyes leave the viewer only while something is.
     """
     chance = stream(seed, "saccades")
-    spoken = [cue for cue in phones if cue.symbol != "SIL"]
+    spoken = [cue for cue in phones if cue.symbol != SILENCE]
     keys = [(0.0, 0.0, 0.0)]
     away = False
     moment = between(chance, *FIXATION_S)

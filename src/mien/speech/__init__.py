@@ -1,6 +1,8 @@
 """Voices, phones and the mouth: from text to sound and to what the face does while it is heard."""
 
-from .phones import CONSONANTS, PHONES, SILENCE, STOPS, VOWELS, stress_of, strip_stress
+from mien.core import SILENCE
+
+from .phones import CONSONANTS, PHONES, STOPS, VOWELS, stress_of, strip_stress
 from .speaking import speak
 from .voice import Speech, Utterance, Voice, find_voice, voices
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from mien.core import Cue, RangeError
+from mien.core import SILENCE, Cue, RangeError
 
 from .mouth_table import bare, phone_table
 
-SILENCE = "SIL"
 HOLD_PAUSE_S = 0.12
 RELAX_PAUSE_S = 0.35
 FIRST_TARGET_SHARE = 0.6

@@ -8,10 +8,7 @@ from functools import cache
 from importlib import resources
 from types import MappingProxyType
 
-from mien.core import MienError
-
-SILENCE = "SIL"
-"""The symbol of a pause."""
+from mien.core import SILENCE, MienError
 
 VOWELS = frozenset(["AA", "AE", "AH", "AO", "AW", "AY", "EH", "ER", "EY", "IH", "IY", "OW", "OY", "UH", "UW"])
 """Phones that carry a stress digit in a cue: ``AE1``."""

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import Cue, MienError, Sound
+from mien.core import SILENCE, Cue, MienError, Sound
 
-from .phones import SILENCE, check_symbol
+from .phones import check_symbol
 from .voice import Speech, Utterance, Voice, find_voice
 
 LEAD_S = 0.2

@@ -19,9 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import MienError
+from mien.core import SILENCE, MienError
 
-from .phones import SILENCE
 from .text import Passage, match_words, prepare_word, split_passages, split_words, trim_word
 from .voice import Utterance
 from .voice_hibari_model import HIBARI_VERSION, check_version, open_model

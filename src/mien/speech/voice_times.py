@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import Cue
+from mien.core import SILENCE, Cue
 
-from .phones import SILENCE, STOPS, VOWELS, convert_ipa, strip_stress
+from .phones import STOPS, VOWELS, convert_ipa, strip_stress
 
 STRESS_MARKS = {"ˈ": 1, "ˌ": 2}
 PAUSE_MARKS = frozenset('.,;:!?—…"“”()')

@@ -15,8 +15,7 @@ SCENE = mien.Scene(size_px=(48, 48), subdivide=0)
 
 def test_draw_takes_a_face_or_its_address_and_a_pose_or_its_values(tmp_path: Path) -> None:
     face = mien.load_face("head")
-    pose = face.neutral if hasattr(face, "neutral") else mien.Pose.neutral(face.parameters)
-    one = mien.draw(face, pose.replace({"jaw.rotation": 8, "mouth.expression": 0.2}), SCENE)
+    one = mien.draw(face, face.neutral.replace({"jaw.rotation": 8, "mouth.expression": 0.2}), SCENE)
     other = mien.draw("head", {"jaw.rotation": 8, "mouth.expression": 0.2}, SCENE, threads=2)
     np.testing.assert_array_equal(one.pixels, other.pixels)
     assert one.size_px == (48, 48)
