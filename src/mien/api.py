@@ -82,17 +82,6 @@ def make_pose(face: Face, values: Mapping[str, float] | None = None, *, presets:
     return pose.replace(values or {})
 
 
-def check_emotion(face: Face, emotion: str | None) -> None:
-    """Nothing, when the face has such an expression, or none is asked for.
-
-    Raises:
-        UnknownNameError: it has none of that name.
-    """
-    known = [preset.name for preset in face.presets.values() if preset.kind == "expression"]
-    if emotion is not None and emotion not in known:
-        raise UnknownNameError(f"emotion of {face.name!r}", emotion, known)
-
-
 def draw(
     face: Face | str = DEFAULT_FACE,
     pose: Pose | Mapping[str, float] | None = None,
@@ -171,8 +160,11 @@ def say(
     scene: Scene | None = None,
 ) -> Performance:
     """A face that says a text: ``mien.say("Hello there.").write("hello.mp4")``."""
+    from .perform import check_emotion
+
     face = load_face(face) if isinstance(face, str) else face
-    check_emotion(face, emotion)
+    if emotion is not None:
+        check_emotion(face, emotion)
     speech = speak(text, voice)
     return perform(speech, face, seed=seed, style=style, emotion=emotion, pose=pose, scene=scene)
 

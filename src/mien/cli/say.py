@@ -54,7 +54,7 @@ def say(
     """
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
-    from mien.perform import parse_style
+    from mien.perform import check_emotion, parse_style
 
     from . import settings
     from .stages import Stages
@@ -78,7 +78,8 @@ def say(
     subject = api.load_face(face)
     pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
     api.find_voice(voice)
-    api.check_emotion(subject, emotion)
+    if emotion is not None:
+        check_emotion(subject, emotion)
     manner = parse_style(style)
     words = settings.read_text(text)
 

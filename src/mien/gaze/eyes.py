@@ -72,8 +72,8 @@ def _saccade(
 ) -> list[tuple[float, float, float]]:
     """Keys of a rest until ``start_s`` and a quick way to where the eyes aim next."""
     _, turn, nod = last
-    amplitude = sqrt((aim[0] - turn) ** 2 + (aim[1] - nod) ** 2)
-    end = start_s + saccade_length_s(amplitude)
+    aside, up = aim[0] - turn, aim[1] - nod
+    end = start_s + saccade_length_s(sqrt(aside * aside + up * up))
     # A straight way: how it speeds up and slows down within 40 ms is not seen at any frame rate.
     return [(start_s, turn, nod), (end, *aim)]
 

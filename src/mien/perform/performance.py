@@ -102,6 +102,17 @@ def perform(
     return Performance(timeline, face, speech.sound)
 
 
+def check_emotion(face: Face, emotion: str) -> None:
+    """Nothing, when the face has such an expression.
+
+    Raises:
+        UnknownNameError: it has none of that name.
+    """
+    expressions = [name for name, preset in face.presets.items() if preset.kind == "expression"]
+    if emotion not in expressions:
+        raise UnknownNameError(f"emotion of {face.name!r}", emotion, expressions)
+
+
 def _lids(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
     return blinks(length_s, seed, speech.phones, often=style.blinks) if style.blinks else {}
 
@@ -148,9 +159,7 @@ def _expression(face: Face, remap: Remap, emotion: str | None, length_s: float) 
     """Tracks that add what a preset changes, eased in and out."""
     if emotion is None:
         return {}
-    expressions = [name for name, preset in face.presets.items() if preset.kind == "expression"]
-    if emotion not in expressions:
-        raise UnknownNameError(f"emotion of {face.name!r}", emotion, expressions)
+    check_emotion(face, emotion)
     spoken = set(remap.reached_by(_spoken(remap)))
     ease = min(EASE_S, length_s / 3.0)
     tracks = {}

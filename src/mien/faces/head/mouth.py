@@ -32,7 +32,7 @@ CORNER_STATIONS = {3: 0.5, 4: 1.0, 6: -1.0, 7: -0.5}
 """Shares of ``mouth.corner.width``: the red above the corner goes up, the red below it down."""
 
 UPPER_RINGS = {"mj": 0.2, "mi": 1.0, "m0": 1.0, "mh": 1.0, "m1": 0.95, "mb": 0.8, "m2": 0.3}
-UPPER_STATIONS = {station: 1.0 - (station / 5.0) ** 2 for station in range(5)}
+UPPER_STATIONS = {station: 1.0 - (station / 5.0) * (station / 5.0) for station in range(5)}
 """Shares of ``mouth.upper_lip``: full effect in the middle, none at the corner, station 5."""
 
 TUCK_RINGS = {"mi": 1.0, "m0": 1.0, "mh": 0.95, "m1": 0.55, "mb": 0.4, "m2": 0.15}
