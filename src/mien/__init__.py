@@ -75,30 +75,17 @@ _HOMES = {
     "mien.perform": ("Performance", "Style"),
     "mien.speech": ("Speech",),
     "mien.timeline": ("Layer", "Timeline", "Track"),
-    "mien.core": (
-        "Cue",
-        "Face",
-        "Light",
-        "LoadError",
-        "Mesh",
-        "MienError",
-        "Parameter",
-        "ParameterTable",
-        "Pose",
-        "RangeError",
-        "Scene",
-        "Sound",
-        "UnknownNameError",
-    ),
 }
+"""Module -> names that are imported from it; all others come from ``mien.core``."""
+
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         value = import_module("importlib.metadata").version("mien")
-    elif name in _HOME_OF:
-        value = getattr(import_module(_HOME_OF[name]), name)
+    elif name in __all__:
+        value = getattr(import_module(_HOME_OF.get(name, "mien.core")), name)
     else:
         raise AttributeError(f"module 'mien' has no attribute {name!r}")
     globals()[name] = value
@@ -117,6 +104,8 @@ class _Perform(ModuleType):
 
 
 class _Mien(ModuleType):
+    """This module, which sees to it that importing ``mien.perform`` does not hide the function."""
+
     def __setattr__(self, name: str, value: Any) -> None:
         # Whoever imports a subpackage makes it an attribute of its parent, in the place of the function.
         if name == "perform" and isinstance(value, ModuleType):
