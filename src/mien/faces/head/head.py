@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -82,7 +82,7 @@ class Head:
         """The same head with points on the measured surface, for pictures without subdivision."""
         if self.kind == "surface":
             return self
-        return Head(self.name, self.hair, self.values, "surface", self.parke_jaw, self.doc, self.residual)
+        return replace(self, kind="surface")
 
     @property
     def topology(self) -> Topology:

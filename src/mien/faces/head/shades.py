@@ -10,8 +10,9 @@ from mien.core.mesh import Ints, Points
 from .lashes import Lashes
 from .measured import Archive, Floats
 
-AMBIENT_POWER = np.array([1.25, 1.75, 1.85])
-"""Baked ambient visibility darkens blue more than red: light that reaches a fold has met skin before."""
+AMBIENT_QUARTERS = (5, 7, 7)
+"""Baked ambient visibility to the power of so many quarters darkens green and blue more than red: light that reaches
+a fold has met skin before."""
 
 
 def color_of(pose: Pose, name: str) -> Floats:
@@ -32,15 +33,9 @@ def regions(pose: Pose) -> Floats:
 def skin_shade(archive: Archive) -> Floats:
     """(V, 3) factor on the skin's colours: ambient visibility to a power a channel, dark towards the throat."""
     ambient = archive.floats("ambient")
-    # x ** p by squaring and roots only: powers are multiples of a quarter.
+    # By roots and products: a library's power function differs between machines.
     root = np.sqrt(np.sqrt(ambient))
-    columns = []
-    for power in AMBIENT_POWER * 4.0:
-        column = np.ones_like(root)
-        for _ in range(round(float(power))):
-            column = column * root
-        columns.append(column)
-    shade = np.stack(columns, axis=1)
+    shade = np.stack([np.multiply.reduce([root] * quarters) for quarters in AMBIENT_QUARTERS], axis=1)
     inside = archive.floats("region_weights")[:, 5]
     depth = np.clip((0.094 - archive.floats("cage")[:, 2]) / 0.03, 0.0, 0.9)
     return shade * (1.0 - inside * depth)[:, None]
