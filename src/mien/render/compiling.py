@@ -16,15 +16,24 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 Report = Callable[[str], None]
 
 MESSAGE = "compiling the rasteriser, once, about ten seconds"
 
+
+class Compiled(NamedTuple):
+    """The modules of compiled functions, by name."""
+
+    lighting: ModuleType
+    spans: ModuleType
+    refining: ModuleType
+
+
 _lock = threading.Lock()
 _report: list[Report] = []
-_loaded: list[ModuleType] = []
+_loaded: list[Compiled] = []
 
 
 def on_compile(report: Report | None) -> None:
@@ -63,18 +72,17 @@ def can_write(folder: Path) -> bool:
         return False
 
 
-def load() -> tuple[ModuleType, ModuleType, ModuleType]:
-    """The compiled modules ``lighting``, ``spans`` and ``refining``; the first call imports Numba, and reports if it
-    must compile."""
+def load() -> Compiled:
+    """The compiled modules; the first call imports Numba, and reports if it must compile."""
     with _lock:
         if not _loaded:
-            _loaded.extend(_import_compiled())
-            if _report and any(is_cold(module) for module in _loaded):
+            _loaded.append(_import_compiled())
+            if _report and any(is_cold(module) for module in _loaded[0]):
                 _report[0](MESSAGE)
-        return _loaded[0], _loaded[1], _loaded[2]
+        return _loaded[0]
 
 
-def _import_compiled() -> list[ModuleType]:
+def _import_compiled() -> Compiled:
     from numba.core import config as numba_config
 
     config: Any = numba_config
@@ -83,7 +91,7 @@ def _import_compiled() -> list[ModuleType]:
     # Numba looks at this when a function is decorated; what others compile later is none of our business.
     config.CACHE_DIR = str(folder)
     try:
-        return [import_module(f"mien.render.{name}") for name in ("lighting", "spans", "refining")]
+        return Compiled(*(import_module(f"mien.render.{name}") for name in Compiled._fields))
     finally:
         config.CACHE_DIR = before
 

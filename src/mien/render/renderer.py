@@ -98,7 +98,7 @@ class Renderer:
 
     def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
         """What ``shade.light_mesh`` says, by compiled code on all threads."""
-        lighting, *_ = load()
+        lighting = load().lighting
         topology = mesh.topology
         polygons, nodes, shades = topology.polygon_count, len(plan.vertex), len(plan.lit)
         normals, facing = np.empty((polygons, 3)), np.empty(polygons, dtype=np.bool_)
@@ -118,11 +118,10 @@ class Renderer:
 
     def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """What ``SparseMatrix.apply`` says of values (C, 3)."""
-        *_, refining = load()
         rows, _ = matrix.shape
         out = np.empty((rows, 3))
         entries = (matrix.starts, matrix.columns, matrix.weights, np.ascontiguousarray(values))
-        self._share(refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
+        self._share(load().refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
         return out
 
     def _parts(self, count: int) -> list[tuple[int, int]]:
@@ -131,7 +130,7 @@ class Renderer:
         return list(pairwise(ends))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
-        _, spans, _ = load()
+        spans = load().spans
         width, height = self.scene.size_px
         raster_height, n = self._camera.height, self._oversampling
         count = len(triangles.corners)

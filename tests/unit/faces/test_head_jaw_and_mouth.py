@@ -34,7 +34,7 @@ def test_a_jaw_at_ninety_degrees_points_straight_down():
     axis = np.array([-0.04, 0.01])
     chin = np.array([[0.02, -0.04, 0.11]])
     turned = rotate_jaw(chin, 90.0, axis)
-    # 0.1 in front of the axis: a quarter turn that opens brings it 0.1 above the axis in z's old place, downwards.
+    # 0.1 in front of the axis and level with it: a quarter turn that opens brings it 0.1 below the axis.
     np.testing.assert_allclose(turned, [[0.02, -0.04 - 0.1, 0.01]], atol=1e-15)
 
 

@@ -155,12 +155,12 @@ def test_ends_of_compiled_spans_are_exact_in_the_largest_pictures(
     centre = data.draw(st.integers(first, last)) * 256 + 128
     down = by - ay
     wanted = -(-((ax - 128) * down + (centre - ay) * (bx - ax)) // (256 * down))
-    found = load()[1]._first_centre(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
+    found = load().spans._first_centre(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
     assert found == wanted
 
 
 def test_ends_of_compiled_spans_on_a_centre_belong_to_the_pixel() -> None:
-    first_centre = load()[1]._first_centre
+    first_centre = load().spans._first_centre
     for down in (3, 7, 4093, 2**23 - 1):
         for column in (0, 1, 16383, 32767):
             x = column * 256 + 128
