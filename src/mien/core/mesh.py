@@ -147,6 +147,8 @@ class Mesh:
             raise MienError(f"points have shape {self.points.shape}, wanted ({vertices}, 3)")
         if self.colors.shape not in ((vertices, 3), (polygons, 3)):
             raise MienError(f"colors have shape {self.colors.shape}, wanted ({vertices}, 3) or ({polygons}, 3)")
+        if self.normals is not None and self.normals.shape != (vertices, 3):
+            raise MienError(f"normals have shape {self.normals.shape}, wanted ({vertices}, 3)")
 
     @property
     def colored_by_polygon(self) -> bool:

@@ -87,7 +87,9 @@ def test_colours_belong_to_vertices_or_to_polygons(topology):
         mesh_of(topology, np.zeros((4, 3)))
 
 
-def test_points_must_fit_the_topology(topology):
+def test_points_and_normals_must_fit_the_topology(topology):
+    with pytest.raises(MienError, match=r"normals have shape \(3,\), wanted \(10, 3\)"):
+        Mesh(topology, np.zeros((10, 3)), np.zeros((10, 3)), np.zeros(3))
     with pytest.raises(MienError, match=r"points have shape \(9, 3\), wanted \(10, 3\)"):
         Mesh(topology, np.zeros((9, 3)), np.zeros((10, 3)))
 
