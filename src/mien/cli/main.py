@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
@@ -14,9 +15,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
+from .streams import open_closed_streams, tell
+
 DONE, FAULT, MISTAKE, INTERRUPTED = 0, 1, 2, 130
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""Ctrl-C, a polite request, the terminal's end (which Windows does not tell)."""
 
 
 class Interrupted(BaseException):
@@ -27,14 +31,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs a command line; the exit status."""
     from .app import app
 
+    open_closed_streams()
     try:
         with _interruptible():
             app(list(sys.argv[1:] if arguments is None else arguments), prog_name="mien")
         return DONE
     except SystemExit as end:  # how the parser says that it is done, or that it did not understand
-        return end.code if isinstance(end.code, int) else DONE
+        had_enough = isinstance(end.__context__, BrokenPipeError)  # as in mien --help | head -1
+        return end.code if isinstance(end.code, int) and not had_enough else DONE
     except (Interrupted, KeyboardInterrupt):
-        _say("mien: interrupted; nothing half-finished is left")
+        tell("mien: interrupted; nothing half-finished is left")
         return INTERRUPTED
     except Exception as error:  # noqa: BLE001  the last resort of the program
         return _explain(error)
@@ -52,11 +58,13 @@ def _interruptible() -> Iterator[None]:
             signal.signal(each, signal.SIG_IGN)
         raise Interrupted
 
-    before = [signal.signal(each, stop) for each in SIGNALS]
+    # Under nohup the terminal's end is none of our business.
+    ours = [each for each in SIGNALS if each == signal.SIGINT or signal.getsignal(each) != signal.SIG_IGN]
+    before = [signal.signal(each, stop) for each in ours]
     try:
         yield
     finally:
-        for each, handler in zip(SIGNALS, before, strict=True):
+        for each, handler in zip(ours, before, strict=True):
             signal.signal(each, handler)
 
 
@@ -68,10 +76,12 @@ def _explain(error: Exception) -> int:
         traceback.print_exception(error)
     if isinstance(error, OSError) and is_full_disk(error):
         error = full_disk_error(error.filename or "temporary files")
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+        error = MienError(f"{error.filename}: the system takes no such name ({error.strerror}) — give a shorter one")
     if isinstance(error, MienError):
-        _say(f"mien: {error}")
+        tell(f"mien: {error}")
         return MISTAKE
-    _say(_report(error))
+    tell(_report(error))
     return FAULT
 
 
@@ -86,7 +96,3 @@ def _report(error: Exception) -> str:
         f"command and these lines; mien {version('mien')}, Python {sys.version.split()[0]}, {sys.platform}. "
         "MIEN_DEBUG=1 shows where it comes from."
     )
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

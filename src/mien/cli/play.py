@@ -51,6 +51,7 @@ def play(
     from mien.formats.table import find_format
 
     from . import settings
+    from .listing import show
     from .stages import Stages
     from .writing import write
 
@@ -86,8 +87,7 @@ def play(
     if commands:
         from mien.timeline import command_list, format_commands
 
-        for line in format_commands(command_list(performance.timeline, performance.face.parameters, rate)):
-            typer.echo(line)
+        show(format_commands(command_list(performance.timeline, performance.face.parameters, rate)))
     if plot is not None:
         from mien.formats.plot import plot_timeline
 

@@ -99,17 +99,19 @@ def read_text(text: str) -> str:
     Raises:
         MienError: the file cannot be read, is not UTF-8, or there is nothing to say.
     """
-    place = "the text"
+    place = {"-": "standard input", "@": text[1:] or text}.get(text if text == "-" else text[:1], "the text")
     try:
         if text == "-":
-            place, text = "standard input", sys.stdin.buffer.read().decode("utf-8-sig")
+            text = sys.stdin.buffer.read().decode("utf-8-sig")
         elif text.startswith("@"):
-            place = text[1:]
-            text = Path(place).read_text(encoding="utf-8-sig")
+            text = Path(text[1:]).read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise MienError(f"{place}: is not UTF-8 text (byte {error.start})") from None
+        raise MienError(f"{place}: is not UTF-8 text (byte {error.start}) — save it as a text file in UTF-8") from None
     except OSError as error:
-        raise MienError(f"{place}: cannot be read ({error.strerror})") from error
+        raise MienError(
+            f"{place}: cannot be read ({error.strerror}) — after @ comes the name of a text file; words that begin "
+            "with @ can be said from standard input: mien say -"
+        ) from error
     if not text.strip():
         raise MienError(f'{place} is empty — give something to say, as in mien say "Hello there." -o hello.mp4')
     return text
@@ -131,6 +133,8 @@ def _color(text: str) -> Rgba:
         red, green, blue, alpha = ImageColor.getcolor(text.strip(), "RGBA")  # type: ignore[misc]
     except ValueError:
         raise _unknown_color(text) from None
+    if max(red, green, blue) > 255:
+        raise MienError(f"--background {text}: want red, green and blue from 0 to 255")
     return _linear(red), _linear(green), _linear(blue), round(alpha / 255.0, 6)
 
 

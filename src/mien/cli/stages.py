@@ -7,6 +7,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from .streams import tell
+
 LINE_EVERY_S = 10.0
 """Where there is no terminal to draw a bar on, a line as often as this."""
 
@@ -21,7 +23,7 @@ class Stages:
     def say(self, text: str) -> None:
         """One line."""
         if not self.quiet:
-            print(text, file=sys.stderr, flush=True)
+            tell(text)
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:

@@ -24,7 +24,8 @@ def write(performance: Performance, out: Path, fps: float, threads: int | None, 
         with stages.stage("writing"):
             write_performance(performance, out, fps=fps, threads=threads)
     length_s = performance.timeline.length_s
-    stages.say(f"{out}: {length_s:.1f} s at {fps:g} frames a second; done in {format_time(stages.elapsed_s)}")
+    rate = "" if kind == "wav" else f" at {fps:g} frames a second"
+    stages.say(f"{out}: {length_s:.1f} s{rate}; done in {format_time(stages.elapsed_s)}")
 
 
 def prepare(stages: Stages) -> None:

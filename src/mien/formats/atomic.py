@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 
 from mien.core import MienError
 
@@ -92,17 +93,18 @@ def writing_folder(path: Path | str, ours: Iterable[str]) -> Iterator[Path]:
 
 
 @contextmanager
-def writing_series(folder: Path, names: re.Pattern[str]) -> Iterator[Path]:
-    """A hidden folder inside ``folder``; its files move into ``folder`` at the end, in place of an older series.
+def writing_series(pattern: Path, names: re.Pattern[str]) -> Iterator[Path]:
+    """A hidden folder beside the files of a series; they move to their places at the end, instead of an older series.
 
     Args:
-        folder: must exist.
+        pattern: what the files are called, such as ``out/frame_%04d.png``; the folder must exist.
         names: what all names of the series match; files of an older, longer series are removed.
     """
-    check_folder(folder / "_")
+    check_folder(pattern)
+    folder = pattern.parent
     temporary = _hidden(folder, "")
     try:
-        _make_folder(temporary, folder / "_")
+        _make_folder(temporary, pattern)
         yield temporary
         new = sorted(item.name for item in temporary.iterdir())
         for name in new:
@@ -111,7 +113,7 @@ def writing_series(folder: Path, names: re.Pattern[str]) -> Iterator[Path]:
             (folder / stale).unlink()
     except OSError as error:
         if is_full_disk(error):
-            raise full_disk_error(folder) from error
+            raise full_disk_error(pattern) from error
         raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
@@ -159,7 +161,9 @@ def check_folder(path: Path) -> None:
     except OSError as error:
         raise _refused(path, error) from error
     if there.is_dir():
-        raise MienError(f"{path}: the folder {str(folder)!r} does not exist — make it first: mkdir -p {folder}")
+        raise MienError(
+            f"{path}: the folder {str(folder)!r} does not exist — make it first: mkdir -p {quote(str(folder))}"
+        )
     raise MienError(f"{path}: {str(there)!r} is a file, not a folder — write somewhere else")
 
 
@@ -191,6 +195,10 @@ def _folder_place(path: Path, ours: tuple[str, ...]) -> Path:
             raise MienError(
                 f"{path}: the folder holds other things ({', '.join(others[:3])}{' …' if len(others) > 3 else ''}) "
                 f"and would be replaced as a whole — name a new folder, such as {path / 'frames'}"
+            )
+        if path.resolve() == Path.cwd():
+            raise MienError(
+                f"{path}: would take the place of the folder that you are in — name a new one, as in frames"
             )
     return path
 

@@ -47,7 +47,9 @@ def check_performance(path: Path | str, *, fps: float = DEFAULT_FPS, scene: Scen
     from .series import check_series
 
     path, scene = Path(path), scene or Scene()
-    kind = "series" if path.suffix.lower() == ".png" and not path.is_dir() else find_format(path, "performance").name
+    kind = (
+        "series" if path.suffix.lower() == ".png" and not os.path.isdir(path) else find_format(path, "performance").name
+    )
     check_rate(fps)
     if kind in ("series", "folder"):
         check_series(path)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from mien.core import Light, LoadError, MienError, Scene, UnknownNameError
+from mien.core import Light, LoadError, MienError, Scene
+from mien.timeline.json_reader import Node
 
 
 def scene_to_data(scene: Scene) -> dict[str, Any]:
@@ -25,20 +26,62 @@ def scene_from_data(data: Mapping[str, Any], place: str) -> Scene:
         place: the file, for messages.
 
     Raises:
-        LoadError: a field is unknown or has a value that no scene can have.
+        LoadError: a field is unknown or has a value that no scene can have; names the field.
     """
-    known = [field.name for field in dataclasses.fields(Scene)]
-    for name in data:
-        if name not in known:
-            raise LoadError(place, f"scene: {UnknownNameError('field', name, known)}")
-    fields = {name: _frozen(value) for name, value in data.items()}
+    members = Node(dict(data), place, "scene").members((), tuple(FIELDS))
+    fields = {name: FIELDS[name](node) for name, node in members.items()}
     try:
-        fields["lights"] = tuple(Light(**{k: _frozen(v) for k, v in light.items()}) for light in data.get("lights", ()))
         return Scene(**fields)
     except MienError as error:
         raise LoadError(place, f"scene: {error}") from error
-    except (TypeError, ValueError, AttributeError) as error:
-        raise LoadError(place, f"scene: a field has the wrong shape ({error})") from error
+
+
+def _vector(node: Node) -> tuple[float, ...]:
+    return tuple(item.number() for item in node.items(3))
+
+
+def _size(node: Node) -> tuple[int, ...]:
+    return tuple(item.integer() for item in node.items(2))
+
+
+def _background(node: Node) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(part.number() for part in color.items(4)) for color in node.items(2))
+
+
+def _ambient(node: Node) -> tuple[tuple[float, ...], ...]:
+    return tuple(_vector(color) for color in node.items(2))
+
+
+def _target(node: Node) -> tuple[float, ...] | None:
+    return None if node.value is None else _vector(node)
+
+
+def _read_lights(node: Node) -> tuple[Light, ...]:
+    return tuple(
+        Light(
+            **{name: LIGHT_FIELDS[name](each) for name, each in light.members(("position", "color"), ("wrap",)).items()}
+        )
+        for light in node.items()
+    )
+
+
+LIGHT_FIELDS: Mapping[str, Callable[[Node], Any]] = {"position": _vector, "color": _vector, "wrap": Node.number}
+
+FIELDS: Mapping[str, Callable[[Node], Any]] = {
+    "position": _vector,
+    "at": _vector,
+    "fov_deg": Node.number,
+    "size_px": _size,
+    "background": _background,
+    "lights": _read_lights,
+    "ambient": _ambient,
+    "cosine_power": Node.integer,
+    "gloss": Node.number,
+    "shading": Node.text,
+    "subdivide": Node.integer,
+    "target": _target,
+}
+"""How each field of a scene is read."""
 
 
 def _lights(scene: Scene) -> list[dict[str, Any]]:
@@ -50,7 +93,3 @@ def _lights(scene: Scene) -> list[dict[str, Any]]:
 
 def _plain(value: Any) -> Any:
     return [_plain(item) for item in value] if isinstance(value, tuple) else value
-
-
-def _frozen(value: Any) -> Any:
-    return tuple(_frozen(item) for item in value) if isinstance(value, list) else value

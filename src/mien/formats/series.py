@@ -15,7 +15,7 @@ from mien.core import MienError, Sound
 
 from .atomic import check_file, check_new_folder, writing_folder, writing_series
 from .picture import Picture
-from .wav import write_wav
+from .wav import write_samples
 
 FRAME_PATTERN = "frame_%04d.png"
 SOUND_NAME = "sound.wav"
@@ -36,13 +36,15 @@ def check_series(path: Path | str) -> None:
         MienError: the pattern numbers nothing, or the place cannot be written.
     """
     path = Path(path)
+    if str(path) == "-":
+        raise MienError("-: nothing is written to standard output — name a file or a folder, such as hello.mp4")
     if path.suffix.lower() != ".png":
         check_new_folder(path, OURS)
         return
     if len(_NUMBER.findall(path.name)) != 1 or path.name.count("%") != 1:
         raise MienError(
-            f"{path}: one picture cannot hold many frames — number them, as in {path.stem}_%04d.png, name a folder "
-            "without a suffix, or write a film: .mp4"
+            f"{path}: one picture cannot hold many frames — number them, as in {_plain(path.stem)}_%04d.png, name a "
+            "folder without a suffix, or write a film: .mp4"
         )
     check_file(path.with_name(path.name % 0))
 
@@ -68,13 +70,13 @@ def write_series(
     path = Path(path)
     check_series(path)
     if path.suffix.lower() == ".png":
-        with writing_series(path.parent, _matching(path.name)) as temporary:
+        with writing_series(path, _matching(path.name)) as temporary:
             _write_frames(frames, temporary, path.name, notes or {})
         return
     with writing_folder(path, OURS) as temporary:
         _write_frames(frames, temporary, FRAME_PATTERN, notes or {})
         if sound is not None:
-            write_wav(sound, temporary / SOUND_NAME)
+            write_samples(sound, temporary / SOUND_NAME)
 
 
 def _write_frames(frames: Iterable[NDArray[np.uint8]], folder: Path, pattern: str, notes: Mapping[str, str]) -> None:
@@ -89,6 +91,11 @@ def _write_frames(frames: Iterable[NDArray[np.uint8]], folder: Path, pattern: st
                 waiting.popleft().result()
         for each in waiting:
             each.result()
+
+
+def _plain(stem: str) -> str:
+    """The stem without what should have been a number, so that a suggestion made of it is one."""
+    return re.sub(r"_?%.*", "", stem) or "frame"
 
 
 def _matching(pattern: str) -> re.Pattern[str]:

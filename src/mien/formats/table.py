@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from mien.core import UnknownNameError
+from mien.core import MienError, UnknownNameError
 
 
 @dataclass(frozen=True)
@@ -44,14 +45,17 @@ def find_format(path: Path | str, holds: str) -> Format:
 
     Raises:
         UnknownNameError: no row has the suffix; the text lists near ones.
+        MienError: there is no suffix.
     """
     path = Path(path)
     rows = [row for row in FORMATS if holds in row.holds]
     suffix = path.suffix.lower()
-    if path.is_dir() and any("" in row.suffixes for row in rows):
+    if os.path.isdir(path) and any("" in row.suffixes for row in rows):
         suffix = ""
     for row in rows:
         if suffix in row.suffixes:
             return row
     known = [each or "(a folder: no suffix)" for row in rows for each in row.suffixes]
-    raise UnknownNameError(f"suffix of {path.name!r} for a {holds}:", suffix, known)
+    if not suffix:
+        raise MienError(f"{path}: has no suffix to tell the format by — end it in one of {', '.join(known)}")
+    raise UnknownNameError(f"suffix of {path.name!r}:", suffix, known)

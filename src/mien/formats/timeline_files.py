@@ -113,7 +113,12 @@ def _read_json(path: Path, text: str, load_face: Callable[[str], Face], address:
     except RecursionError:
         raise LoadError(path, "is nested too deeply to be a timeline") from None
     stored = from_json(data, str(path))
-    face = load_face(address or stored.face or DEFAULT_FACE)
+    try:
+        face = load_face(address or stored.face or DEFAULT_FACE)
+    except MienError as error:
+        if address:
+            raise
+        raise LoadError(path, f"face: {error}", hint="or choose who plays it: --face head") from None
     try:
         stored.timeline.driven(face.parameters)
     except MienError as error:
@@ -127,7 +132,10 @@ def _sound(path: Path, name: str) -> Sound | None:
         return None
     if Path(name).name != name:
         raise LoadError(path, f"sound {name!r}: want the name of a file beside this one, without folders")
-    return read_wav(path.parent / name)
+    try:
+        return read_wav(path.parent / name)
+    except LoadError as error:
+        raise LoadError(path, f"sound {name!r}: {error}", hint="keep both files side by side") from None
 
 
 def _read_text(path: Path) -> str:

@@ -26,7 +26,13 @@ def write_wav(sound: Sound, path: Path | str) -> None:
         raise MienError(
             f"{path}: {sound.length_s / 3600:.1f} hours are more than a WAV file holds — write .mp4 instead"
         )
-    with writing(path) as temporary, wave.open(str(temporary), "wb") as file:
+    with writing(path) as temporary:
+        write_samples(sound, temporary)
+
+
+def write_samples(sound: Sound, path: Path) -> None:
+    """Writes a WAV file of less than 4 GB right where it is to be."""
+    with wave.open(str(path), "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(2)
         file.setframerate(sound.rate_hz)

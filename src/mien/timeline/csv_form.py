@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Iterator
 
 from mien.core import LoadError, ParameterTable, RangeError, UnknownNameError
@@ -48,6 +49,10 @@ def parse_csv(
         time = _cell(cells[0], clock, source, line)
         if clock == "frame":
             time /= fps
+        if time < 0.0:
+            raise LoadError(
+                source, f"{clock} {cells[0].strip()} is before 0", line=line, hint="times are counted from 0"
+            )
         if times and time <= times[-1]:
             raise LoadError(source, f"{clock} {cells[0].strip()} does not come after the row before", line=line)
         times.append(time)
@@ -81,7 +86,7 @@ def format_csv(timeline: Timeline, table: ParameterTable, fps: float) -> Iterato
 
 def _rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
     """Line number and cells of each row."""
-    reader = csv.reader(text.removeprefix("\ufeff").splitlines())
+    reader = csv.reader(text.removeprefix("\ufeff").splitlines(), strict=True)
     try:
         for cells in reader:
             yield reader.line_num, cells
@@ -92,7 +97,8 @@ def _rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 def _check_heading(columns: list[str], source: str, table: ParameterTable | None) -> None:
     if not columns or columns[0] not in CLOCKS:
         got = f"{columns[0]!r}" if columns else "nothing"
-        raise LoadError(source, f"want 'time_s' or 'frame' as the first column, got {got}", line=1)
+        hint = "put commas between the columns" if columns and re.search("[;\t]", columns[0]) else ""
+        raise LoadError(source, f"want 'time_s' or 'frame' as the first column, got {got}", line=1, hint=hint)
     for number, name in enumerate(columns):
         if not name:
             raise LoadError(source, f"column {number + 1} has no name", line=1)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mien.core import Cue, MienError, ParameterTable
+from mien.core import Cue, LoadError, MienError, ParameterTable
 
 from .change import CHANGE_NAMES
 from .json_reader import Node
@@ -125,6 +125,8 @@ def from_json(data: object, source: str = "timeline") -> StoredTimeline:
             title=text("title"),
             seed=members["seed"].integer() if "seed" in members else None,
         )
+    except LoadError:  # knows its place already
+        raise
     except MienError as error:
         raise _placed(top, error) from None
     scene = dict(members["scene"].entries()) if "scene" in members else {}

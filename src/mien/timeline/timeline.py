@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from mien.core import Cue, MienError, ParameterTable, Pose, RangeError, UnknownNameError
 
 from .layers import BLENDS, Layer
-from .track import Floats
+from .track import LIMIT, Floats
 
 CHUNK_FRAMES = 256
 """Frames evaluated at once; bounds the memory of a long timeline."""
@@ -45,8 +45,8 @@ class Timeline:
     def __post_init__(self) -> None:
         for name in ("layers", "words", "phones"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
-        if not (math.isfinite(self.length_s) and self.length_s >= 0.0):
-            raise RangeError(f"timeline: a length of {self.length_s} s is not a finite number of 0 or more")
+        if not 0.0 <= self.length_s <= LIMIT:
+            raise RangeError(f"timeline: a length of {self.length_s} s is not a number from 0 to {LIMIT:g}")
         if self.fps is not None:
             _check_rate(self.fps)
         seen: set[str] = set()

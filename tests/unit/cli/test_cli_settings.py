@@ -119,6 +119,12 @@ def test_text_from_the_line_a_file_and_standard_input(tmp_path: Path, monkeypatc
     assert read_text("-") == "Grüße"
 
 
+def test_bytes_that_are_no_text_are_refused_by_where_they_came_from(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(b"caf\xe9")))
+    with pytest.raises(MienError, match=r"standard input: is not UTF-8 text \(byte 3\)"):
+        read_text("-")
+
+
 def test_nothing_to_say_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text(" \n")
     (tmp_path / "b.txt").write_bytes(b"\xff\xff")

@@ -143,10 +143,17 @@ def test_a_folder_with_other_things_in_it_is_never_replaced(tmp_path: Path) -> N
     assert (tmp_path / "thesis.txt").read_text() == "years"
 
 
+def test_the_folder_one_is_in_is_never_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for path in (Path(), tmp_path, tmp_path / "." / ".." / tmp_path.name):
+        with pytest.raises(MienError, match="folder that you are in"):
+            check_new_folder(path, ["frame_*.png"])
+
+
 def test_a_series_replaces_an_older_longer_one_and_nothing_else(tmp_path: Path) -> None:
     for name in ("f_0000.png", "f_0001.png", "f_0002.png", "f_x.png", "other.png"):
         (tmp_path / name).write_text("old")
-    with writing_series(tmp_path, re.compile(r"f_\d+\.png")) as temporary:
+    with writing_series(tmp_path / "f_%d.png", re.compile(r"f_\d+\.png")) as temporary:
         (temporary / "f_0000.png").write_text("new")
         assert (tmp_path / "f_0000.png").read_text() == "old"
     assert leftovers(tmp_path) == ["f_0000.png", "f_x.png", "other.png"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import av
@@ -13,10 +13,10 @@ import pytest
 from PIL import Image
 from small_face import SmallFace, SmallRenderer, opening_jaw
 
-from mien.core import LoadError, MienError, RangeError, Scene, UnknownNameError
+from mien.core import Light, LoadError, MienError, RangeError, Scene, UnknownNameError
 from mien.formats import check_performance, write_performance
 from mien.formats.performances import draw_frames
-from mien.formats.scenes import scene_from_data, scene_to_data
+from mien.formats.scenes import FIELDS, LIGHT_FIELDS, scene_from_data, scene_to_data
 from mien.formats.timeline_files import read_timeline
 from mien.formats.wav import read_wav
 
@@ -84,7 +84,7 @@ def test_json_names_the_sound_beside_it(tmp_path: Path) -> None:
     write_performance(opening_jaw(), tmp_path / "a.json")
     assert json.loads((tmp_path / "a.json").read_text())["sound"] == "a.wav"
     (tmp_path / "a.wav").unlink()
-    with pytest.raises(LoadError, match=r"a.wav: cannot be read"):
+    with pytest.raises(LoadError, match=r"a\.json: sound 'a\.wav': .*a\.wav: cannot be read"):
         read_timeline(tmp_path / "a.json", load)
 
 
@@ -150,16 +150,41 @@ def test_every_field_of_a_scene_comes_back() -> None:
     [
         ({"fov": 3}, "did you mean 'fov_deg'"),
         ({"shading": "smoth"}, "did you mean 'smooth'"),
-        ({"size_px": 3}, "wrong shape"),
-        ({"at": ["a", 0, 0]}, "wrong shape"),
-        ({"lights": [{"position": [0, 0, 1]}]}, "wrong shape"),
-        ({"lights": 4}, "wrong shape"),
+        ({"size_px": 3}, "size_px: want a list"),
+        ({"size_px": [64, 64, 64]}, "size_px: want a list of 2"),
+        ({"size_px": [64.5, 64]}, "whole number, got 64.5"),
+        ({"at": ["a", 0, 0]}, r"at\[0\]: want a number"),
+        ({"at": [0, 0]}, "at: want a list of 3"),
+        ({"background": [1, 2, 3]}, "background: want a list of 2"),
+        ({"background": [[0, 0, 0], [1, 1, 1]]}, r"background\[0\]: want a list of 4"),
+        ({"lights": [{"position": [0, 0, 1]}]}, r"lights\[0\]: 'color' is missing"),
+        ({"lights": [{"position": [0, 0, 1], "color": 5}]}, r"lights\[0\].color: want a list"),
+        ({"lights": 4}, "lights: want a list"),
+        ({"subdivide": 1.0}, "subdivide: want a whole number"),
+        ({"fov_deg": "20"}, "fov_deg: want a number"),
         ({"fov_deg": 900}, "out of range"),
     ],
 )
 def test_a_scene_that_cannot_be_is_refused_with_its_place(change: dict, message: str) -> None:
-    with pytest.raises(LoadError, match=f"x.json: scene: .*{message}"):
+    with pytest.raises(LoadError, match=f"x.json: scene.*{message}"):
         scene_from_data({**scene_to_data(Scene()), **change}, "x.json")
+
+
+def test_every_field_of_a_scene_can_be_read() -> None:
+    assert set(FIELDS) == {field.name for field in fields(Scene)}
+    assert set(LIGHT_FIELDS) == {field.name for field in fields(Light)}
+
+
+def test_an_unknown_face_in_a_file_is_refused_with_the_file(tmp_path: Path) -> None:
+    write_performance(opening_jaw(), tmp_path / "a.json")
+
+    def load_none(address: str) -> SmallFace:
+        raise UnknownNameError("face", address, ["head"])
+
+    with pytest.raises(LoadError, match=r"a\.json: face: unknown face .*--face"):
+        read_timeline(tmp_path / "a.json", load_none)
+    with pytest.raises(UnknownNameError):
+        read_timeline(tmp_path / "a.json", load_none, "nobody")
 
 
 @pytest.mark.parametrize(
@@ -167,6 +192,7 @@ def test_a_scene_that_cannot_be_is_refused_with_its_place(change: dict, message:
     [
         ("a.mp5", {}, UnknownNameError, "did you mean '.mp4'"),
         ("a.webp", {}, UnknownNameError, "suffix of 'a.webp'"),
+        ("a" * 300 + ".mp4", {}, MienError, "give a shorter one"),
         ("nowhere/a.mp4", {}, MienError, "does not exist"),
         ("a.png", {}, MienError, "a_%04d.png"),
         ("a.mp4", {"fps": 241}, RangeError, "from 1 to 240"),

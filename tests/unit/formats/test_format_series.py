@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 import numpy as np
@@ -54,5 +55,25 @@ def test_a_failure_leaves_the_older_series(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["a.png", "%s.png", "%d_%d.png", "50%_%d.png", "%%d.png"])
 def test_a_name_that_numbers_nothing_is_refused_with_one_that_does(tmp_path: Path, name: str) -> None:
-    with pytest.raises(MienError, match="%04d"):
+    with pytest.raises(MienError, match=r"as in (\S*%04d\.png)") as caught:
         check_series(tmp_path / name)
+    check_series(tmp_path / str(caught.value).split("as in ")[1].split(",")[0])
+
+
+def test_standard_output_is_no_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(MienError, match="standard output"):
+        check_series("-")
+
+
+def test_a_full_disk_names_what_was_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(sound: Sound, path: Path) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device", str(path))
+
+    monkeypatch.setattr("mien.formats.series.write_samples", full)
+    with pytest.raises(MienError, match=r"/out: the disk is full"):
+        write_series(frames(1), tmp_path / "out", sound=Sound(np.zeros(9, dtype=np.int16), 100))
+    monkeypatch.setattr("mien.formats.series._write_frames", lambda *_: full(Sound(np.zeros(1, np.int16), 1), tmp_path))
+    with pytest.raises(MienError, match=r"/f_%d\.png: the disk is full"):
+        write_series(frames(1), tmp_path / "f_%d.png")
+    assert list(tmp_path.iterdir()) == []

@@ -129,6 +129,8 @@ JAW = ("layers", 0, "tracks", "jaw.rotation")
         (change(("lenght_s",), 1), "unknown key 'lenght_s' — did you mean 'length_s'"),
         (change(("length_s",), ...), "'length_s' is missing"),
         (change(("length_s",), -1), "length of -1.0 s"),
+        (change(("length_s",), 1e300), "length of 1e+300 s"),
+        (change(("length_s",), float("nan")), "length_s: want a finite number"),
         (change(("fps",), 0), "a rate of 0"),
         (change(("seed",), 1.5), "seed: want a whole number, got 1.5"),
         (change(("words", 0), [0, 1]), "words[0]: want a list of 3, got one of 2"),
@@ -168,6 +170,7 @@ def test_what_is_wrong_is_refused_with_its_place(data, message):
     with pytest.raises(LoadError) as caught:
         from_json(copy.deepcopy(data), "x.json")
     assert str(caught.value).startswith("x.json: ")
+    assert str(caught.value).count("x.json") == 1
     assert message in str(caught.value)
 
 
