@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -31,8 +32,12 @@ def check_version() -> None:
 
 def open_model(model: bytes) -> Any:
     """The model, which also gives its durations; one thread, so that sums have one order."""
+    # From its import on, onnxruntime 1.31 would keep an identifier of the machine in the user's cache folder, with a
+    # store of events that it can send to its makers. What people let mien say is nobody's business.
+    os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")
     import onnxruntime
 
+    onnxruntime.disable_telemetry_events()
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.log_severity_level = 3

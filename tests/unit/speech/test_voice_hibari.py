@@ -2,9 +2,11 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import os
 import subprocess
 import sys
 from importlib.metadata import PackageNotFoundError
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +23,13 @@ POEM = "How happy is the little stone\nThat rambles in the road alone,"
 @pytest.fixture(scope="module")
 def poem() -> Speech:
     return speak(POEM)
+
+
+def test_speaking_leaves_no_telemetry_in_the_home_folder(tmp_path: Path) -> None:
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "ORT_"))}
+    program = "from mien.speech import speak; speak('Hello.')"
+    subprocess.run([sys.executable, "-c", program], env={**environment, "HOME": str(tmp_path)}, check=True)
+    assert [path.name for path in tmp_path.rglob("*") if "icrosoft" in str(path) or "onnx" in str(path)] == []
 
 
 def level_db(speech: Speech, cue: Cue) -> float:
