@@ -54,6 +54,9 @@ class Parameter:
         Raises:
             RangeError: it is not finite or not in ``low..high``.
         """
+        number: object = value
+        if isinstance(number, str | bytes):  # float() would take it
+            raise RangeError(f"{self.name}: {number!r} is a text, not a number — {self._range()}")
         value = float(value)
         if not math.isfinite(value):
             raise RangeError(f"{self.name}: {value} is not a finite number — {self._range()}")
@@ -220,6 +223,10 @@ class Pose:
     def neutral(cls, table: ParameterTable) -> Pose:
         """The pose in which every parameter has its default."""
         return cls(table, table.defaults)
+
+    def __repr__(self) -> str:
+        changed = ", ".join(f"{name}={value:g}" for name, value in self.changed().items())
+        return f"<Pose of {len(self.table)} parameters: {changed or 'neutral'}>"
 
     def __getitem__(self, name: str) -> float:
         return float(self.values[self.table.index[self.table[name].name]])

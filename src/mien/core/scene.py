@@ -80,6 +80,8 @@ class Scene:
     target: Vector | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.size_px, tuple) or len(self.size_px) != 2:
+            raise RangeError(f"size_px {self.size_px!r}: want (width, height) in pixels")
         width, height = self.size_px
         if not (1 <= width <= 16384 and 1 <= height <= 16384):
             raise RangeError(f"size {width}x{height} is out of range — each side is 1 to 16384 pixels")

@@ -91,3 +91,16 @@ def test_equal_poses_are_one_key():
     assert len({first, second, NEUTRAL}) == 2
     assert first != NEUTRAL
     assert first != "a pose"
+
+
+def test_a_pose_shows_what_it_changes_and_not_its_whole_table():
+    table = ParameterTable((Parameter("jaw.rotation", 0, 20), Parameter("mouth.width", 0.5, 1.5, 1)))
+    neutral = Pose.neutral(table)
+    assert repr(neutral) == "<Pose of 2 parameters: neutral>"
+    assert repr(neutral.replace({"jaw.rotation": 8})) == "<Pose of 2 parameters: jaw.rotation=8>"
+
+
+def test_a_text_is_no_value():
+    table = ParameterTable((Parameter("jaw.rotation", 0, 20),))
+    with pytest.raises(RangeError, match="is a text"):
+        Pose.neutral(table).replace({"jaw.rotation": "8"})

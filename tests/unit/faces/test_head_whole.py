@@ -134,6 +134,7 @@ def test_a_face_file_makes_a_person(tmp_path):
         ({"values": [1]}, "values"),
         ({"hare": "bob"}, "hair"),
         ({"hair": 3}, "text"),
+        ({"name": 5}, "text"),
         ({"version": 9}, "version"),
         ({"format": "other"}, "mien-face"),
         ({"residual": "none.npz"}, "none.npz"),

@@ -80,7 +80,7 @@ def read_head(path: Path) -> Head:
         LoadError: the file is not such a file, with the key that is wrong.
     """
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        record = json.loads(path.read_text(encoding="utf-8-sig"))
     except json.JSONDecodeError as error:
         raise LoadError(path, f"not JSON: {error.msg}", line=error.lineno) from None
     except UnicodeDecodeError:
@@ -106,7 +106,7 @@ def read_head(path: Path) -> Head:
         raise LoadError(path, str(error)) from None
 
 
-_DEFAULTS = {"hair": "side_part", "palette": "beige", "jaw": "fitted", "doc": ""}
+_DEFAULTS = {"name": "", "hair": "side_part", "palette": "beige", "jaw": "fitted", "doc": ""}
 
 
 def _text(record: Mapping[str, object], key: str, default: str) -> str:
