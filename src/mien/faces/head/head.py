@@ -188,6 +188,9 @@ class Head:
         colors = self._colors[key].copy()
         for side, ball in balls.items():
             colors[self._layout.span[f"eye.{side}"]] *= shades.lid_shadow(parts[f"eye.{side}"], ball.centre)
+        edge = float(parts["skin"][self._lip_edge, 1])
+        for name in ("teeth", "gums", "tongue"):
+            colors[self._layout.span[name]] *= shades.lip_shadow(parts[name], edge)
         return colors
 
     # ---------------------------------------------------------------- constants
@@ -245,6 +248,10 @@ class Head:
     @cached_property
     def _parke_share(self) -> Floats:
         return parke_shares(self._measured.jaw_share)
+
+    @cached_property
+    def _lip_edge(self) -> int:
+        return self._archive.vertex["m0_0"]
 
     @cached_property
     def _chin(self) -> int:

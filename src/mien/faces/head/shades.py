@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mien.core import Pose
+from mien.core.exact import smoothstep
 from mien.core.mesh import Ints, Points
 
 from .lashes import Lashes
@@ -95,6 +96,17 @@ def lid_shadow(points: Points, centre: Floats) -> Floats:
     up = np.clip((points[:, 1] - centre[1] - 0.0008) / 0.0036, 0.0, 1.0)
     side = np.clip((np.abs(points[:, 0] - centre[0]) - 0.006) / 0.005, 0.0, 1.0)
     return ((1.0 - 0.55 * up) * (1.0 - 0.22 * side))[:, None]
+
+
+LIP_SHADOW = 0.62
+LIP_SHADOW_M = 0.0065
+"""How dark the upper lip's shadow is, and how far it falls: a lip 8 mm before the teeth, light from 35 degrees up."""
+
+
+def lip_shadow(points: Points, lip_height: float) -> Floats:
+    """(N, 1) factor: the upper lip's shadow on what lies in the mouth; ``lip_height`` is its edge, m."""
+    below = smoothstep((lip_height - points[:, 1] - 0.0015) / LIP_SHADOW_M)
+    return (1.0 - LIP_SHADOW * (1.0 - below))[:, None]
 
 
 def palette_key(pose: Pose) -> bytes:
