@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Protocol
 
@@ -15,9 +16,12 @@ from mien.timeline import Timeline
 
 from .atomic import check_file
 from .notes import notes
+from .pipeline import run_ahead
 from .table import find_format
 
 DEFAULT_FPS = 24.0
+
+Frames = Generator[NDArray[np.uint8], None, None]
 
 Report = Callable[[int, int], None]
 """Told how many frames of how many are done."""
@@ -89,16 +93,17 @@ def write_performance(
     scene = scene or performance.scene
     kind = check_performance(path, fps=fps, scene=scene)
     marks = notes(face.name, timeline.title)
-    if kind == "film":
-        from .film import write_film
+    if kind in ("film", "folder", "series"):
+        drawn = run_ahead(draw_frames(timeline, face, scene, fps, threads))
+        with closing(drawn), closing(_told(drawn, timeline.frame_count(fps), report)) as frames:
+            if kind == "film":
+                from .film import write_film
 
-        frames = draw_frames(timeline, face, scene, fps, threads, report)
-        write_film(frames, path, fps=fps, size_px=scene.size_px, sound=sound, notes=marks)
-    elif kind in ("folder", "series"):
-        from .series import write_series
+                write_film(frames, path, fps=fps, size_px=scene.size_px, sound=sound, notes=marks)
+            else:
+                from .series import write_series
 
-        frames = draw_frames(timeline, face, scene, fps, threads, report)
-        write_series(frames, path, sound=sound, notes=marks)
+                write_series(frames, path, sound=sound, notes=marks)
     elif kind == "wav":
         from .wav import write_wav
 
@@ -122,23 +127,21 @@ def with_rate(timeline: Timeline, fps: float) -> Timeline:
     return replace(timeline, fps=float(fps))
 
 
-def draw_frames(
-    timeline: Timeline,
-    face: Face,
-    scene: Scene,
-    fps: float,
-    threads: int | None = None,
-    report: Report | None = None,
-) -> Iterator[NDArray[np.uint8]]:
+def _told(frames: Iterator[NDArray[np.uint8]], total: int, report: Report | None) -> Frames:
+    """The frames; after each the report hears of it, on the thread of whoever takes them."""
+    for number, pixels in enumerate(frames, start=1):
+        yield pixels
+        if report:
+            report(number, total)
+
+
+def draw_frames(timeline: Timeline, face: Face, scene: Scene, fps: float, threads: int | None = None) -> Frames:
     """Each frame (H, W, 4) uint8, sRGB with straight alpha, in order; frame k shows the moment k / fps."""
     from mien.render import Renderer
 
-    total = timeline.frame_count(fps)
     with Renderer(scene, threads or default_threads()) as renderer:
-        for number, pose in enumerate(timeline.poses(face.parameters, fps), start=1):
+        for pose in timeline.poses(face.parameters, fps):
             yield renderer.draw(face, pose)
-            if report:
-                report(number, total)
 
 
 def default_threads() -> int:

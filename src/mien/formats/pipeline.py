@@ -1,0 +1,66 @@
+"""Work that runs ahead: frames are drawn on one thread while the one before is encoded on another.
+
+Source: Parke 1972, "Implementation": two machines with two buffers between them, the next frame begun while the last
+is scanned out.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Generator, Iterator
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+DEPTH = 3
+"""Items that wait at most: enough that neither side idles, few enough that memory does not grow with the film."""
+
+LOOK_S = 0.1
+"""How often a waiting worker looks whether anybody still wants its items."""
+
+
+def run_ahead(items: Iterator[Item], depth: int = DEPTH) -> Generator[Item, None, None]:
+    """The same items in the same order, made on a thread of their own, at most ``depth`` before they are asked for.
+
+    What making an item raises is raised here, in its place. Close the iterator (``contextlib.closing``) to stop the
+    thread before the end; it is gone when this returns.
+    """
+    ready: queue.Queue[tuple[Item | None, BaseException | None, bool]] = queue.Queue(depth)
+    unwanted = threading.Event()
+
+    def put(item: Item | None, error: BaseException | None = None, last: bool = False) -> None:
+        while not unwanted.is_set():
+            try:
+                ready.put((item, error, last), timeout=LOOK_S)
+            except queue.Full:
+                continue
+            return
+
+    def work() -> None:
+        try:
+            for item in items:
+                put(item)
+                if unwanted.is_set():
+                    break
+            put(None, last=True)
+        except BaseException as error:  # noqa: BLE001 - handed over, not swallowed
+            put(None, error)
+        finally:
+            close = getattr(items, "close", None)
+            if close is not None:
+                close()
+
+    worker = threading.Thread(target=work, name="mien-frames", daemon=True)
+    worker.start()
+    try:
+        while True:
+            item, error, last = ready.get()
+            if error is not None:
+                raise error
+            if last:
+                return
+            yield item  # type: ignore[misc]
+    finally:
+        unwanted.set()
+        worker.join()
