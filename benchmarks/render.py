@@ -43,12 +43,14 @@ def measure(face_name: str, size: int, threads: int, samples: int, repeats: int)
     plan = plan_shading(fine.topology, False)
     camera = Camera.of(scene, 2 if samples == 4 else 1)
     with Renderer(scene, threads, samples=samples) as renderer:
-        triangles = make_triangles(fine, scene, camera, renderer._light)
+        triangles = make_triangles(fine, scene, camera, renderer._light, renderer._place)
         stages = {
             "shape": best_ms(lambda: face.shape(pose), repeats),
             "subdivision": best_ms(lambda: renderer.refine(coarse), repeats),
             "light": best_ms(lambda: renderer._light(fine, points, plan, scene), repeats),
-            "view, clip": best_ms(lambda: make_triangles(fine, scene, camera, renderer._light), repeats),
+            "view, clip": best_ms(
+                lambda: make_triangles(fine, scene, camera, renderer._light, renderer._place), repeats
+            ),
             "raster, pixels": best_ms(lambda: renderer._rasterise(triangles), repeats),
             "frame": best_ms(lambda: renderer.draw(face, pose), repeats),
         }

@@ -22,6 +22,9 @@ SUBPIXELS = 256
 NEAR_M = 0.01
 """Nothing nearer to the viewer than this is drawn, metres."""
 
+FAR_OUT = float(2**24)
+"""Places farther out than this, in 1/256 pixels, are brought here: they must fit 32 bits and mean nothing anyway."""
+
 
 @dataclass(frozen=True)
 class Camera:
@@ -69,11 +72,10 @@ class Camera:
         Points nearer than the near plane, and points far outside of the picture, get a place without meaning.
         """
         inverse = 1.0 / np.maximum(view[:, 2], NEAR_M)
-        limit = float(2**24)
         places = np.empty((len(view), 2), dtype=np.int32)
         for k, (sign, side) in enumerate(((self.scale, self.width), (-self.scale, self.height))):
             pixels = side * 0.5 + (view[:, k] * sign) * inverse
-            places[:, k] = np.rint(np.clip(pixels * SUBPIXELS, -limit, limit))
+            places[:, k] = np.rint(np.clip(pixels * SUBPIXELS, -FAR_OUT, FAR_OUT))
         return places, inverse
 
 

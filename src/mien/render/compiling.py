@@ -29,6 +29,7 @@ class Compiled(NamedTuple):
     lighting: ModuleType
     spans: ModuleType
     refining: ModuleType
+    placing: ModuleType
 
 
 _lock = threading.Lock()

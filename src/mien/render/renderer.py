@@ -15,13 +15,13 @@ from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, U
 from mien.core.sparse import SparseMatrix
 
 from . import reference
-from .camera import Camera
+from .camera import FAR_OUT, NEAR_M, SUBPIXELS, Camera
 from .compiling import Report, load, on_compile, timed
 from .drawing import draw_drawing
 from .pixels import background_rows, resolve, srgb_tables, straight
 from .plan import Plan
 from .shade import Shades, own_normals
-from .triangles import Triangles, make_triangles
+from .triangles import Placed, Triangles, make_triangles
 
 Picture = NDArray[np.uint8]
 Rasteriser = Literal["compiled", "reference"]
@@ -94,7 +94,7 @@ class Renderer:
             triangles = make_triangles(mesh, self.scene, self._camera)
             samples, covered = reference.rasterise(triangles, self._camera.width, self._camera.height)
             return resolve(samples, covered, self._behind, self._oversampling)
-        return self._rasterise(make_triangles(mesh, self.scene, self._camera, self._light))
+        return self._rasterise(make_triangles(mesh, self.scene, self._camera, self._light, self._place))
 
     def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
         """What ``shade.light_mesh`` says, by compiled code on all threads."""
@@ -115,6 +115,23 @@ class Renderer:
             [(*places, normals, *settings, sums, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
         )
         return Shades(diffuse, highlight, facing)
+
+    def _place(self, points: NDArray[np.float64], plan: Plan, camera: Camera) -> Placed:
+        """What ``triangles.place_mesh`` says, by compiled code."""
+        placing = load().placing
+        count, triangles = len(points), plan.triangles.shape[1]
+        view, inverse = np.empty((count, 3)), np.empty(count)
+        codes, places = np.empty(count, dtype=np.uint8), np.empty((count, 2), dtype=np.int32)
+        axes = np.array([camera.right, camera.up, camera.forward])
+        settings = np.array([camera.scale, camera.width, camera.height, NEAR_M, SUBPIXELS, FAR_OUT])
+        constant = (points, axes, np.array(camera.position), settings)
+        self._share(
+            placing.place_points, [(*constant, a, b, view, codes, places, inverse) for a, b in self._parts(count)]
+        )
+        whole, cut = np.empty(triangles, dtype=np.int64), np.empty(triangles, dtype=np.int64)
+        corners = np.empty((triangles, 3), dtype=np.int32)
+        seen, crossing = placing.sort_out(plan.triangles, codes, places, plan.triangle_two_sided, whole, corners, cut)
+        return Placed(view, places, inverse, whole[:seen], corners[:seen], cut[:crossing])
 
     def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """What ``SparseMatrix.apply`` says of values (C, 3)."""

@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Ints32 = NDArray[np.int32]
 Light = Callable[[Mesh, Floats, Plan, Scene], Shades]
+Place = Callable[[Floats, Plan, Camera], "Placed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,25 +52,54 @@ class Triangles:
         )
 
 
-def make_triangles(mesh: Mesh, scene: Scene, camera: Camera, light: Light = light_mesh) -> Triangles:
-    """The mesh, lit by ``light``, projected, clipped, without what turns its back."""
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """Points before the camera, and which triangles of a plan are to be drawn.
+
+    Attributes:
+        view: (V, 3) m, the camera's frame.
+        places: (V, 2) 1/256 pixels.
+        inverse: (V,) 1 / depth, 1/m.
+        whole: numbers of the triangles that lie in the picture and are seen.
+        corners: (n, 3) their vertices.
+        cut: numbers of the triangles that the picture's border cuts.
+    """
+
+    view: Floats
+    places: Ints32
+    inverse: Floats
+    whole: Ints
+    corners: Ints32
+    cut: Ints
+
+
+def place_mesh(points: Floats, plan: Plan, camera: Camera) -> Placed:
+    """Where points (V, 3) m fall, and what becomes of the plan's triangles."""
+    view = camera.view(points)
+    codes = outcodes(camera, view)
+    places, inverse = camera.project(view)
+    first, second, third = (codes[row] for row in plan.triangles)
+    outside = first | second | third
+    whole = np.flatnonzero((outside == 0) & _is_seen(places, plan.triangles, plan.triangle_two_sided))
+    corners = np.ascontiguousarray(plan.triangles[:, whole].T, dtype=np.int32)
+    cut = np.flatnonzero((outside != 0) & ((first & second & third) == 0))
+    return Placed(view, places, inverse, whole, corners, cut)
+
+
+def make_triangles(
+    mesh: Mesh, scene: Scene, camera: Camera, light: Light = light_mesh, place: Place = place_mesh
+) -> Triangles:
+    """The mesh, lit by ``light``, projected by ``place``, clipped, without what turns its back."""
     topology = mesh.topology
     points = exact.round_points(mesh.points)
     plan = plan_shading(topology, scene.shading != "smooth")
     if scene.shading == "wire":
         mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
     shades = light(mesh, points, plan, scene)
-    view = camera.view(points)
-    codes = outcodes(camera, view)
-    places, inverse = camera.project(view)
-
-    first, second, third = codes[plan.triangles[0]], codes[plan.triangles[1]], codes[plan.triangles[2]]
-    outside = first | second | third
-    whole = np.flatnonzero((outside == 0) & _is_seen(places, plan.triangles, plan.triangle_two_sided))
-    colors, color_of = _corner_colors(mesh, plan, shades, whole)
-    corners = np.ascontiguousarray(plan.triangles[:, whole].T, dtype=np.int32)
-    result = Triangles(places, inverse, corners, colors, color_of)
-    cut = np.flatnonzero((outside != 0) & ((first & second & third) == 0))
+    placed = place(points, plan, camera)
+    view, cut = placed.view, placed.cut
+    colors, color_of = _corner_colors(mesh, plan, shades, placed.whole)
+    result = Triangles(placed.places, placed.inverse, placed.corners, colors, color_of)
     if len(cut):
         colors, color_of = _corner_colors(mesh, plan, shades, cut)
         corner_values = np.concatenate([view[plan.triangles[:, cut].T], colors[color_of]], axis=2)

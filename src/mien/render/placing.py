@@ -1,0 +1,69 @@
+"""What ``triangles.place_mesh`` says, compiled: the same formulas in the same order, so every number is the same."""
+
+# Numba finds the types of arguments by itself, so that the functions below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
+from __future__ import annotations
+
+import numpy as np
+
+from .kernels import compiled
+
+
+@compiled
+def place_points(points, axes, position, settings, first, last, view, codes, places, inverse):
+    """Fill rows first:last: the camera's frame, the planes a point lies outside of, its place and 1 / depth.
+
+    ``axes`` (3, 3) are right, up and forward; ``settings`` are scale, width, height, near plane, steps a pixel, limit.
+    """
+    scale, near, steps, limit = settings[0], settings[3], settings[4], settings[5]
+    half_width, half_height = settings[1] * 0.5, settings[2] * 0.5
+    for v in range(first, last):
+        x, y, z = points[v, 0] - position[0], points[v, 1] - position[1], points[v, 2] - position[2]
+        across = (x * axes[0, 0] + y * axes[0, 1]) + z * axes[0, 2]
+        above = (x * axes[1, 0] + y * axes[1, 1]) + z * axes[1, 2]
+        depth = (x * axes[2, 0] + y * axes[2, 1]) + z * axes[2, 2]
+        view[v, 0], view[v, 1], view[v, 2] = across, above, depth
+        code = 0
+        if depth - near < 0.0:
+            code |= 1
+        if depth * half_width + across * scale < 0.0:
+            code |= 2
+        if depth * half_width + across * -scale < 0.0:
+            code |= 4
+        if depth * half_height + above * scale < 0.0:
+            code |= 8
+        if depth * half_height + above * -scale < 0.0:
+            code |= 16
+        codes[v] = code
+        nearness = 1.0 / max(depth, near)
+        inverse[v] = nearness
+        right = half_width + (across * scale) * nearness
+        down = half_height + (above * -scale) * nearness
+        places[v, 0] = np.int32(np.rint(min(max(right * steps, -limit), limit)))
+        places[v, 1] = np.int32(np.rint(min(max(down * steps, -limit), limit)))
+
+
+@compiled
+def sort_out(triangles, codes, places, two_sided, whole, corners, cut):
+    """Number of triangles that are wholly in the picture and seen, and of those that its border cuts.
+
+    Their numbers go to the front of ``whole`` and ``cut``, the corners of the whole ones to that of ``corners``.
+    """
+    seen, crossing = 0, 0
+    for t in range(triangles.shape[1]):
+        a, b, c = triangles[0, t], triangles[1, t], triangles[2, t]
+        if codes[a] | codes[b] | codes[c]:
+            if not (codes[a] & codes[b] & codes[c]):
+                cut[crossing] = t
+                crossing += 1
+            continue
+        ax, ay = np.int64(places[a, 0]), np.int64(places[a, 1])
+        bx, by = np.int64(places[b, 0]) - ax, np.int64(places[b, 1]) - ay
+        cx, cy = np.int64(places[c, 0]) - ax, np.int64(places[c, 1]) - ay
+        area = bx * cy - cx * by
+        if area < 0 or (area > 0 and two_sided[t]):
+            whole[seen] = t
+            corners[seen, 0], corners[seen, 1], corners[seen, 2] = a, b, c
+            seen += 1
+    return seen, crossing
