@@ -81,7 +81,13 @@ def test_a_narrow_terminal_still_shows_every_column(
 def test_the_end_of_the_terminal_ends_it_tidily_unless_under_nohup(before: str, status: int, tmp_path: Path) -> None:
     (tmp_path / "a.spec").write_text("length 20000\njaw.rotation 0 10 0 8 cosine\n")
     command = f"{before}exec {MIEN} play a.spec --size 64 --subdivide 0 --threads 1 -o a.mp4"
-    process = subprocess.Popen(["bash", "-c", command], cwd=tmp_path, stderr=subprocess.DEVNULL)
+    # A shell cannot undo what its parent ignores, and tests may themselves run under nohup.
+    process = subprocess.Popen(
+        ["bash", "-c", command],
+        cwd=tmp_path,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
+    )
     try:
         for _ in range(1200):
             if any(tmp_path.glob(".mien-*")) or process.poll() is not None:
@@ -95,5 +101,6 @@ def test_the_end_of_the_terminal_ends_it_tidily_unless_under_nohup(before: str, 
         assert process.wait(60) == status
     finally:
         process.kill()
+        process.wait()
     if status > 0:
         assert [item.name for item in tmp_path.iterdir()] == ["a.spec"]
