@@ -12,11 +12,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from mien.core import Cue, exact
+from mien.core import Cue
 
 from .mouth_table import Floats, phone_table
 
-LEAST_S = {"closure": 0.086, "tuck": 0.076}
+LEAST_S = {"closure": 0.086, "tuck": 0.081}
 """Length of the shortest hold: one frame at 12 fps is 83.3 ms. A tuck counts while it is 0.9, on its slopes too."""
 
 BEFORE_SHARE = 0.65
@@ -26,11 +26,16 @@ SAME_GAP_S = 0.045
 OTHER_GAP_S = 0.05
 MERGE_S = 0.03
 
-CLOSE_S = 0.07
-OPEN_S = 0.045
-"""Lips pop open and close slowly."""
+CLOSE_S = 0.06
+OPEN_S = 0.04
+"""Lips pop open and close slowly.
 
-CLOSE_SHARE = 0.6
+They meet at speed, so that they are not nearly shut for longer than they are shut.
+Source: Löfqvist and Gracco 1997, Lip and jaw kinematics in bilabial stop consonant production, Journal of Speech,
+Language, and Hearing Research 40: lips move fast when they touch. The lengths are our choice.
+"""
+
+CLOSE_SHARE = 0.5
 LEAST_CLOSE_S = 0.036
 """Closing takes at most a share of the sound before, so that a short one is not lost, but no less than this."""
 
@@ -154,15 +159,15 @@ def ease(holds: Sequence[Hold]) -> tuple[Hold, ...]:
 
 
 def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
-    """(N,) value of a held channel at sorted times: exactly 1 on every plateau, smooth slopes."""
+    """(N,) value of a held channel at sorted times: exactly 1 on every plateau, slopes that are steepest beside it."""
     value = np.zeros(len(times_s))
     for hold in holds:
         if hold.channel == channel:
             low, high = np.searchsorted(times_s, [hold.start_s - hold.rise_s, hold.end_s + hold.fall_s])
             t = times_s[low : high + 1]
-            rise = exact.smoothstep((t - (hold.start_s - hold.rise_s)) / hold.rise_s)
-            fall = exact.smoothstep(((hold.end_s + hold.fall_s) - t) / hold.fall_s)
-            shape = np.where(t < hold.start_s, rise, np.where(t > hold.end_s, fall, 1.0))
+            rise = np.clip((t - (hold.start_s - hold.rise_s)) / hold.rise_s, 0.0, 1.0)
+            fall = np.clip(((hold.end_s + hold.fall_s) - t) / hold.fall_s, 0.0, 1.0)
+            shape = np.where(t < hold.start_s, rise * rise, np.where(t > hold.end_s, fall * fall, 1.0))
             value[low : high + 1] = np.maximum(value[low : high + 1], shape)
     return value
 
