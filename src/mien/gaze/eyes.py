@@ -20,7 +20,7 @@ SHIFT_DEG = (1.8, 1.1)
 """Reach of the small shifts over the viewer's face, sideways and upwards: our choice."""
 
 AWAY = 0.16
-AWAY_TURN_DEG = (3.0, 7.0)
+AWAY_TURN_DEG = (3.0, 6.0)
 AWAY_NOD_DEG = (-2.5, 3.5)
 """Chance and size of a glance away.
 

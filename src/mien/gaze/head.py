@@ -10,7 +10,7 @@ from .accents import Accent
 from .chance import around, between, stream
 from .curves import pulses, way
 
-SWAY_DEG = {"head_turn": 2.2, "head_nod": 1.3, "head_tilt": 1.2}
+SWAY_DEG = {"head_turn": 3.0, "head_nod": 1.3, "head_tilt": 2.4}
 """Greatest sway about each axis: our choice, a person who sits still and talks."""
 
 SWAY_S = (1.1, 2.6)
