@@ -142,7 +142,7 @@ def test_everything_can_be_switched_off_and_only_the_mouth_moves() -> None:
     assert not timeline.layer("idle").tracks
     assert not timeline.layer("gaze").tracks
     groups = {name.split(".")[0] for name in timeline.driven(head_table())}
-    assert groups <= {"jaw", "mouth", "tongue"}
+    assert groups <= {"chin", "jaw", "mouth", "tongue"}
 
 
 @pytest.mark.parametrize(
