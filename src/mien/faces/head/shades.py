@@ -31,6 +31,10 @@ def regions(pose: Pose) -> Floats:
     return np.stack([skin, blush, lip, shade, light, color_of(pose, "cavity"), nostril, rim])
 
 
+CHEEK_GLOW = np.array([0.95, 0.75, 0.72])
+"""Least light on the inside of the mouth before its depth darkens it."""
+
+
 def skin_shade(archive: Archive) -> Floats:
     """(V, 3) factor on the skin's colours: ambient visibility to a power a channel, dark towards the throat."""
     ambient = archive.floats("ambient")
@@ -38,8 +42,10 @@ def skin_shade(archive: Archive) -> Floats:
     root = np.sqrt(np.sqrt(ambient))
     shade = np.stack([np.multiply.reduce([root] * quarters) for quarters in AMBIENT_QUARTERS], axis=1)
     inside = archive.floats("region_weights")[:, 5]
-    depth = np.clip((0.094 - archive.floats("cage")[:, 2]) / 0.03, 0.0, 0.9)
-    return shade * (1.0 - inside * depth)[:, None]
+    depth = np.clip((0.092 - archive.floats("cage")[:, 2]) / 0.045, 0.0, 0.85)
+    # Cheeks seen from within glow red; the baked shade, which knows a shut mouth only, would make them black.
+    lit = shade + inside[:, None] * np.maximum(CHEEK_GLOW - shade, 0.0)
+    return lit * (1.0 - inside * depth)[:, None]
 
 
 def blend(weights: Floats, colors: Floats) -> Floats:
@@ -98,7 +104,7 @@ def lid_shadow(points: Points, centre: Floats) -> Floats:
     return ((1.0 - 0.55 * up) * (1.0 - 0.22 * side))[:, None]
 
 
-LIP_SHADOW = 0.62
+LIP_SHADOW = 0.42
 LIP_SHADOW_M = 0.0065
 """How dark the upper lip's shadow is, and how far it falls: a lip 8 mm before the teeth, light from 35 degrees up."""
 
