@@ -7,24 +7,25 @@ from fractions import Fraction
 from pathlib import Path
 
 from mien.core import RangeError
+from mien.timeline import Rate, exact_rate
 
-FPS_LOW, FPS_HIGH = 1.0, 240.0
+FPS_LOW, FPS_HIGH = 1, 240
 
 LEAST_SIDE_PX = 16
 
 
-def check_rate(fps: float) -> Fraction:
-    """Frames a second as a fraction.
+def check_rate(fps: Rate) -> Fraction:
+    """Frames a second as a fraction; 23.976 is 24000/1001.
 
     Raises:
         RangeError: it is not in 1..240.
     """
     if not (math.isfinite(fps) and FPS_LOW <= fps <= FPS_HIGH):
-        raise RangeError(f"fps {fps:g} is out of range — it goes from {FPS_LOW:g} to {FPS_HIGH:g} frames a second")
-    return Fraction(fps).limit_denominator(1001)
+        raise RangeError(f"fps {float(fps):g} is out of range — it goes from {FPS_LOW} to {FPS_HIGH} frames a second")
+    return exact_rate(fps)
 
 
-def check_film(path: Path | str, fps: float, size_px: tuple[int, int], transparent: bool = False) -> None:
+def check_film(path: Path | str, fps: Rate, size_px: tuple[int, int], transparent: bool = False) -> None:
     """Makes sure that a film can have this rate, size and background.
 
     Raises:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -84,7 +84,8 @@ def perform(
         UnknownNameError: the face has no such expression.
     """
     remap = load_remap(VOCABULARY, face.family)
-    length_s = speech.sound.length_s
+    voiced = listen(speech, face)
+    length_s = voiced.timeline.length_s
     lids = _lids(speech, length_s, seed, style)
     mouth = articulate(speech.phones, strength=style.strength)
     moved = {**mouth, **_accents(speech, length_s, seed, style)}
@@ -96,8 +97,15 @@ def perform(
         Layer("shut", "multiply", _shut(remap, {**mouth, **lids})),
         Layer("direct", "replace", {}),
     )
+    return replace(voiced, timeline=replace(voiced.timeline, layers=layers, seed=seed))
+
+
+def listen(speech: Speech, face: Face) -> Performance:
+    """What is heard alone, the sound with its words and phones: a performance in which nothing moves yet."""
+    # Bytes that are no UTF-8 come as halves of characters, which no file can hold.
+    text = speech.text.encode("utf-8", "replace").decode("utf-8")
     timeline = Timeline(
-        layers, length_s, words=speech.words, phones=speech.phones, title=_title(speech.text), seed=seed
+        (), speech.sound.length_s, words=speech.words, phones=speech.phones, title=_title(text), text=text
     )
     return Performance(timeline, face, speech.sound)
 

@@ -5,6 +5,7 @@ from .commands import command_list, format_commands
 from .csv_form import format_csv, parse_csv
 from .json_form import StoredTimeline, from_json, json_text, to_json
 from .layers import BLENDS, STANDARD_LAYERS, Layer
+from .rates import Rate, exact_rate
 from .specification import Mark, Specification, Specifications, format_specifications, parse_specifications
 from .timeline import Timeline
 from .track import Segment, Track
@@ -15,6 +16,7 @@ __all__ = [
     "STANDARD_LAYERS",
     "Layer",
     "Mark",
+    "Rate",
     "Segment",
     "Specification",
     "Specifications",
@@ -22,6 +24,7 @@ __all__ = [
     "Timeline",
     "Track",
     "command_list",
+    "exact_rate",
     "format_commands",
     "format_csv",
     "format_specifications",

@@ -11,6 +11,7 @@ import numpy as np
 
 from mien.core import ParameterTable
 
+from .rates import Rate
 from .specification import Specifications
 from .timeline import Timeline
 
@@ -18,7 +19,7 @@ Command = tuple[int, list[tuple[str, float]]]
 """A frame's number, and name and value of each parameter that is set in it, in the table's order."""
 
 
-def command_list(timeline: Timeline | Specifications, table: ParameterTable, fps: float) -> Iterator[Command]:
+def command_list(timeline: Timeline | Specifications, table: ParameterTable, fps: Rate) -> Iterator[Command]:
     """The commands of each frame, in order; a frame that nothing covers has an empty list.
 
     A held value is no command: the model keeps it.

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from mien.core import LoadError, ParameterTable, RangeError, UnknownNameError
 
 from .layers import Layer
+from .rates import Rate, exact_rate, time_of
 from .specification import FILM_FPS
 from .timeline import Timeline
 from .track import LIMIT, Track
@@ -19,7 +20,7 @@ CLOCKS = ("time_s", "frame")
 
 
 def parse_csv(
-    text: str, source: str = "table", *, fps: float = FILM_FPS, table: ParameterTable | None = None
+    text: str, source: str = "table", *, fps: Rate = FILM_FPS, table: ParameterTable | None = None
 ) -> Timeline:
     """The timeline of a table: one layer, ``direct``, that replaces, straight lines from row to row.
 
@@ -38,7 +39,7 @@ def parse_csv(
     lines = _rows(text, source)
     columns = [cell.strip() for cell in next(lines, (1, []))[1]]
     _check_heading(columns, source, table)
-    clock, names = columns[0], columns[1:]
+    clock, names, rate = columns[0], columns[1:], exact_rate(fps)
     times: list[float] = []
     keys: dict[str, tuple[list[float], list[float]]] = {name: ([], []) for name in names}
     for line, cells in lines:
@@ -48,7 +49,7 @@ def parse_csv(
             raise LoadError(source, f"want {len(columns)} cells, got {len(cells)}", line=line)
         time = _cell(cells[0], clock, source, line)
         if clock == "frame":
-            time /= fps
+            time = time_of(time, rate)
         if time < 0.0:
             raise LoadError(
                 source, f"{clock} {cells[0].strip()} is before 0", line=line, hint="times are counted from 0"
@@ -62,13 +63,13 @@ def parse_csv(
                 keys[name][1].append(_cell(cell, name, source, line, table))
     if not times:
         raise LoadError(source, "there is no row in it", hint="a heading alone moves nothing")
-    step = times[-1] - times[-2] if len(times) > 1 else 1.0 / fps
+    step = times[-1] - times[-2] if len(times) > 1 else time_of(1.0, rate)
     tracks = {name: Track.from_keys(at, values, name=name) for name, (at, values) in keys.items() if at}
-    rate = fps if clock == "frame" else None
-    return Timeline((Layer("direct", "replace", tracks),), max(times[-1] + step, 0.0), fps=rate)
+    made_for = float(rate) if clock == "frame" else None
+    return Timeline((Layer("direct", "replace", tracks),), max(times[-1] + step, 0.0), fps=made_for)
 
 
-def format_csv(timeline: Timeline, table: ParameterTable, fps: float) -> Iterator[str]:
+def format_csv(timeline: Timeline, table: ParameterTable, fps: Rate) -> Iterator[str]:
     """Lines of the table of a timeline's values at a rate, with the rows that some track drives.
 
     Numbers are written so that they read back as the same numbers.
@@ -78,10 +79,11 @@ def format_csv(timeline: Timeline, table: ParameterTable, fps: float) -> Iterato
     """
     names = timeline.driven(table)
     columns = [table.index[name] for name in names]
+    rate = exact_rate(fps)
     yield ",".join(("time_s", *names))
     for first, values, _ in timeline.chunks(table, fps):
         for row, numbers in enumerate(values[:, columns].tolist()):
-            yield ",".join(repr(number) for number in ((first + row) / fps, *numbers))
+            yield ",".join(repr(number) for number in (time_of(float(first + row), rate), *numbers))
 
 
 def _rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:

@@ -24,7 +24,7 @@ FORMAT = "mien-timeline"
 VERSION = 1
 """Version that is written. It is the first; a later one brings the step from each earlier one with it."""
 
-_TOP_OPTIONAL = ("title", "face", "table", "fps", "seed", "sound", "words", "phones", "scene")
+_TOP_OPTIONAL = ("title", "face", "table", "fps", "seed", "sound", "words", "phones", "scene", "text")
 
 
 @dataclass(frozen=True)
@@ -123,6 +123,7 @@ def from_json(data: object, source: str = "timeline") -> StoredTimeline:
             words=_read_cues(members["words"]) if "words" in members else (),
             phones=_read_cues(members["phones"]) if "phones" in members else (),
             title=text("title"),
+            text=text("text"),
             seed=members["seed"].integer() if "seed" in members else None,
         )
     except LoadError:  # knows its place already
@@ -139,6 +140,7 @@ def _head(stored: StoredTimeline) -> dict[str, Any]:
     form: dict[str, Any] = {"format": FORMAT, "version": VERSION}
     optional = {
         "title": timeline.title,
+        "text": timeline.text,
         "face": stored.face,
         "table": stored.fingerprint,
         "sound": stored.sound,

@@ -26,10 +26,11 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from mien.core import Cue, LoadError, MienError, ParameterTable, UnknownNameError
+from mien.core import Cue, LoadError, MienError, ParameterTable, RangeError, UnknownNameError
 
 from .change import CHANGE_NAMES
 from .layers import Layer
+from .rates import exact_rate, time_of
 from .timeline import Timeline
 from .track import LIMIT, Segment, Track
 
@@ -139,7 +140,7 @@ class Specifications:
         )
 
     def _seconds(self, time: float) -> float:
-        return time / self.fps if self.unit == "frames" else time
+        return time_of(time, exact_rate(self.fps)) if self.unit == "frames" else time
 
     def _cues(self, marks: Iterable[Mark]) -> Iterator[Cue]:
         return (Cue(self._seconds(mark.begin), self._seconds(mark.end), mark.symbol) for mark in marks)
@@ -248,6 +249,8 @@ class _Line:
             number = self._finite(value, name)
             if number <= 0.0:
                 raise self.error(f"{name} {value} is not above 0")
+            if name == "fps":
+                self._check_rate(number)
             return number
         return value
 
@@ -267,6 +270,12 @@ class _Line:
         if not math.isfinite(number) or abs(number) > LIMIT:
             raise self.error(f"{what} {text} is not a finite number within ±{LIMIT:g}")
         return number
+
+    def _check_rate(self, fps: float) -> None:
+        try:
+            exact_rate(fps)
+        except RangeError as error:
+            raise self.error(str(error)) from None
 
     def _guess(self) -> str:
         near = str(UnknownNameError("heading", self.fields[0], HEADINGS)).split(" — ")[-1]

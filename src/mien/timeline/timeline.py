@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from mien.core import Cue, MienError, ParameterTable, Pose, RangeError, UnknownNameError
 
 from .layers import BLENDS, Layer
+from .rates import Rate, exact_rate, time_of
 from .track import LIMIT, Floats
 
 CHUNK_FRAMES = 256
@@ -31,6 +32,7 @@ class Timeline:
         words: cues of the words, in order.
         phones: cues of the phones, in order.
         title: what a person would call it.
+        text: what is said, as it was written; the words are found in it, in order.
         seed: of the generators that made it, if any.
     """
 
@@ -40,6 +42,7 @@ class Timeline:
     words: tuple[Cue, ...] = ()
     phones: tuple[Cue, ...] = ()
     title: str = ""
+    text: str = ""
     seed: int | None = None
 
     def __post_init__(self) -> None:
@@ -48,7 +51,7 @@ class Timeline:
         if not 0.0 <= self.length_s <= LIMIT:
             raise RangeError(f"timeline: a length of {self.length_s} s is not a number from 0 to {LIMIT:g}")
         if self.fps is not None:
-            _check_rate(self.fps)
+            exact_rate(self.fps)
         seen: set[str] = set()
         for layer in self.layers:
             if layer.name in seen:
@@ -75,16 +78,16 @@ class Timeline:
             layers = (*self.layers, layer)
         return replace(self, layers=layers, length_s=max(self.length_s, layer.length_s))
 
-    def frame_count(self, fps: float) -> int:
+    def frame_count(self, fps: Rate) -> int:
         """Number of frames at a rate; at least one, the last starts before the end.
 
         A length that is a whole number of frames but for rounding (a millionth of a frame) counts as whole.
         """
-        return max(1, math.ceil(self.length_s * _check_rate(fps) - 1e-6))
+        return max(1, math.ceil(self.length_s * float(exact_rate(fps)) - 1e-6))
 
-    def frame_times(self, fps: float) -> Floats:
-        """(N,) s, the time of each frame: frame k is at k / fps."""
-        return np.arange(self.frame_count(fps), dtype=np.float64) / fps
+    def frame_times(self, fps: Rate) -> Floats:
+        """(N,) s, the time of each frame: frame k is at k / fps, exactly (at 23.976 that is k · 1001 / 24000)."""
+        return time_of(np.arange(self.frame_count(fps), dtype=np.float64), exact_rate(fps))
 
     def driven(self, table: ParameterTable) -> tuple[str, ...]:
         """Names of the rows that some track drives, in the table's order.
@@ -127,22 +130,15 @@ class Timeline:
         # Adding 0 makes -0 a 0: they look alike everywhere but in the bytes.
         return np.clip(columns.T, table.lows, table.highs) + 0.0, covered.T
 
-    def chunks(self, table: ParameterTable, fps: float) -> Iterator[tuple[int, Floats, NDArray[np.bool_]]]:
+    def chunks(self, table: ParameterTable, fps: Rate) -> Iterator[tuple[int, Floats, NDArray[np.bool_]]]:
         """The frames at a rate in pieces of bounded size: number of the first frame, values (N, P), covered (N, P)."""
-        _check_rate(fps)
-        count = self.frame_count(fps)
+        rate, count = exact_rate(fps), self.frame_count(fps)
         for first in range(0, count, CHUNK_FRAMES):
             frames = np.arange(first, min(first + CHUNK_FRAMES, count), dtype=np.float64)
-            yield first, *self.evaluate(frames / fps, table)
+            yield first, *self.evaluate(time_of(frames, rate), table)
 
-    def poses(self, table: ParameterTable, fps: float) -> Iterator[Pose]:
+    def poses(self, table: ParameterTable, fps: Rate) -> Iterator[Pose]:
         """The pose of each frame at a rate, in order."""
         for _, values, _ in self.chunks(table, fps):
             for row in values:
                 yield Pose(table, row)
-
-
-def _check_rate(fps: float) -> float:
-    if not (math.isfinite(fps) and fps > 0.0):
-        raise RangeError(f"timeline: a rate of {fps} frames a second is not a finite number above 0")
-    return float(fps)
