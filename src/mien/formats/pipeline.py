@@ -1,4 +1,4 @@
-"""Work that runs ahead: frames are drawn on one thread while the one before is encoded on another.
+"""Work that runs ahead: frames are drawn on one thread while the one before is encoded on another; and runs of frames.
 
 Source: Parke 1972, "Implementation": two machines with two buffers between them, the next frame begun while the last
 is scanned out.
@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 Item = TypeVar("Item")
 
@@ -64,3 +67,18 @@ def run_ahead(items: Iterator[Item], depth: int = DEPTH) -> Generator[Item, None
     finally:
         unwanted.set()
         worker.join()
+
+
+def runs(frames: Iterable[NDArray[np.uint8]]) -> Generator[tuple[NDArray[np.uint8], int], None, None]:
+    """Each frame that differs from the one before, with the number of frame times that it stays; none is left out."""
+    shown: NDArray[np.uint8] | None = None
+    count = 0
+    for pixels in frames:
+        if shown is not None and (pixels is shown or np.array_equal(pixels, shown)):
+            count += 1
+            continue
+        if shown is not None:
+            yield shown, count
+        shown, count = pixels, 1
+    if shown is not None:
+        yield shown, count
