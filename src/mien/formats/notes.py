@@ -15,12 +15,14 @@ def software() -> str:
     return f"mien {version('mien')}"
 
 
-def notes(face: str, text: str = "") -> Mapping[str, str]:
+def notes(face: str, text: str = "", seed: int | None = None) -> Mapping[str, str]:
     """Keywords and texts for pictures and films.
 
     Args:
         face: address of the face.
         text: what it says, if anything.
+        seed: of what chance decided in it, if anything.
     """
     title = {"Title": text[:200]} if text else {}
-    return {**title, "Software": software(), "Face": face, "Description": SYNTHETIC}
+    chance = {} if seed is None else {"Seed": str(seed)}
+    return {**title, "Software": software(), "Face": face, **chance, "Description": SYNTHETIC}

@@ -9,34 +9,50 @@ from pathlib import Path
 from mien.core import RangeError
 from mien.timeline import Rate, exact_rate
 
+from .codecs import CODECS, Codec, find_codec
+
 FPS_LOW, FPS_HIGH = 1, 240
 
-LEAST_SIDE_PX = 16
 
-
-def check_rate(fps: Rate) -> Fraction:
+def check_rate(fps: Rate, high: float = FPS_HIGH) -> Fraction:
     """Frames a second as a fraction; 23.976 is 24000/1001.
 
     Raises:
-        RangeError: it is not in 1..240.
+        RangeError: it is not in 1..``high``.
     """
-    if not (math.isfinite(fps) and FPS_LOW <= fps <= FPS_HIGH):
-        raise RangeError(f"fps {float(fps):g} is out of range — it goes from {FPS_LOW} to {FPS_HIGH} frames a second")
+    if not (math.isfinite(fps) and FPS_LOW <= fps <= high):
+        raise RangeError(f"fps {float(fps):g} is out of range — it goes from {FPS_LOW} to {high:g} frames a second")
     return exact_rate(fps)
 
 
 def check_film(path: Path | str, fps: Rate, size_px: tuple[int, int], transparent: bool = False) -> None:
-    """Makes sure that a film can have this rate, size and background.
+    """Makes sure that a film of this suffix can have this rate, size and background.
 
     Raises:
+        UnknownNameError: films have no such suffix.
         RangeError: it cannot, and what would do.
     """
-    check_rate(fps)
-    if any(side % 2 or side < LEAST_SIDE_PX for side in size_px):
-        near = "x".join(str(max(LEAST_SIDE_PX, side + side % 2)) for side in size_px)
+    codec = find_codec(path)
+    if check_rate(fps) > codec.fps_high:
         raise RangeError(
-            f"{path}: a film of {size_px[0]}x{size_px[1]} pixels — its sides must be even and at least "
-            f"{LEAST_SIDE_PX}: try {near}"
+            f"{path}: {float(fps):g} frames a second are more than {codec.suffix} can tell apart — "
+            f"at most {codec.fps_high:g}, or write .mp4"
         )
-    if transparent:
-        raise RangeError(f"{path}: a film has no transparency — give a background colour, or write PNG frames")
+    _check_size(path, codec, size_px)
+    if transparent and not codec.alpha:
+        clear = ", ".join(each.suffix for each in CODECS if each.alpha)
+        raise RangeError(
+            f"{path}: {codec.suffix} has no transparency — write {clear} or PNG frames, or give a background colour"
+        )
+
+
+def _check_size(path: Path | str, codec: Codec, size_px: tuple[int, int]) -> None:
+    longest, pixels = max(size_px), size_px[0] * size_px[1]
+    if longest <= codec.most_side_px and pixels <= codec.most_pixels and min(size_px) >= codec.least_side_px:
+        return
+    share = min(codec.most_side_px / longest, math.sqrt(codec.most_pixels / pixels), 1.0)
+    width, height = (max(codec.least_side_px, math.floor(side * share)) for side in size_px)
+    raise RangeError(
+        f"{path}: {size_px[0]}x{size_px[1]} pixels are not a size that {codec.suffix} can hold — "
+        f"try --size {width}x{height}, or write PNG frames"
+    )

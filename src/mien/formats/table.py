@@ -8,6 +8,8 @@ from pathlib import Path
 
 from mien.core import MienError, UnknownNameError
 
+from .codecs import CODECS
+
 
 @dataclass(frozen=True)
 class Format:
@@ -27,12 +29,13 @@ class Format:
 
 
 FORMATS: tuple[Format, ...] = (
-    Format("film", (".mp4",), ("performance",), "H.264 picture, AAC sound"),
+    Format("film", tuple(codec.suffix for codec in CODECS), ("performance",), "moving pictures: table ``codecs``"),
     Format("folder", ("",), ("performance",), "a folder of PNG frames and the sound"),
     Format("png", (".png",), ("picture",), "PNG, with transparency"),
     Format("jpeg", (".jpg", ".jpeg"), ("picture",), "JPEG, over white"),
     Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
     Format("wav", (".wav",), ("performance",), "the sound alone"),
+    Format("subtitles", (".srt", ".vtt"), ("performance",), "what is said, as SubRip or WebVTT subtitles"),
     Format("json", (".json",), ("performance", "timeline"), "everything needed to play it again, sound beside it"),
     Format("csv", (".csv",), ("performance", "timeline"), "one row a frame, one column a parameter"),
     Format("specification", (".spec",), ("timeline",), "Parke's specification list"),
