@@ -26,11 +26,12 @@ class Codec:
         suffix: lower case.
         doc: what is in the file.
         container: FFmpeg's name of the file format.
+        container_options: of what writes it.
         picture: FFmpeg's name of the encoder of pictures.
         pixels: FFmpeg's name of the layout of opaque pixels that it is given.
         clear_pixels: the same for pictures with a transparent background; empty where a film has none.
         options: of the encoder of pictures.
-        clear_options: in place of, or besides, ``options`` for pictures with a transparent background.
+        clear_options: besides ``options``, for pictures with a transparent background.
         voice: FFmpeg's name of the encoder of sound; empty where a film has none.
         voice_rates_hz: samples a second that it takes; others are resampled to the highest. Empty: any.
         voice_bits_per_s: how much it may write; 0 where that is not a choice.
@@ -48,6 +49,7 @@ class Codec:
     picture: str
     pixels: str
     clear_pixels: str = ""
+    container_options: Mapping[str, str] = field(default_factory=dict)
     options: Mapping[str, str] = field(default_factory=dict)
     clear_options: Mapping[str, str] = field(default_factory=dict)
     voice: str = ""
@@ -71,6 +73,9 @@ class Codec:
         return bool(self.voice)
 
 
+_MOVIE = {"movflags": "+faststart+use_metadata_tags"}
+"""The index comes first, so that a film plays while it loads; notes of any name are kept."""
+
 CODECS: tuple[Codec, ...] = (
     Codec(
         ".mp4",
@@ -78,6 +83,7 @@ CODECS: tuple[Codec, ...] = (
         container="mp4",
         picture="libx264",
         pixels="yuv420p",
+        container_options=_MOVIE,
         options={"preset": "veryfast", "crf": "18"},
         voice="aac",
         voice_rates_hz=(7350, 8000, 11025, 12000, 16000, 22050, 24000, 32000, 44100, 48000),
@@ -107,6 +113,7 @@ CODECS: tuple[Codec, ...] = (
         picture="prores_ks",
         pixels="yuv444p10le",
         clear_pixels="yuva444p10le",
+        container_options=_MOVIE,
         options={"profile": "4444"},
         voice="pcm_s16le",
         most_pixels=LEVEL_PIXELS,
@@ -118,6 +125,7 @@ CODECS: tuple[Codec, ...] = (
         picture="gif",
         pixels="pal8",
         clear_pixels="pal8",
+        container_options={"loop": "0"},
         spaced=True,
         fps_high=50.0,
     ),
@@ -128,6 +136,7 @@ CODECS: tuple[Codec, ...] = (
         picture="apng",
         pixels="rgb24",
         clear_pixels="rgba",
+        container_options={"plays": "0"},
         options={"pred": "mixed"},
         spaced=True,
     ),
@@ -136,7 +145,7 @@ CODECS: tuple[Codec, ...] = (
         "animated WebP, with transparency, no sound",
         container="webp",
         picture="libwebp",
-        pixels="yuv420p",
+        pixels="bgra",
         clear_pixels="bgra",
         options={"quality": "90", "compression_level": "2"},
         spaced=True,

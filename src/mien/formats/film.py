@@ -1,23 +1,30 @@
-"""MP4: H.264 picture and AAC sound, written frame by frame in bounded memory."""
+"""Films, written frame by frame in bounded memory; ``codecs`` says what each kind holds."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import av
 import numpy as np
-from av.audio.frame import AudioFrame
 from av.video.frame import VideoFrame
-from av.video.reformatter import ColorRange, Colorspace
+from av.video.reformatter import ColorRange
 from numpy.typing import NDArray
 
 from mien.core import MienError, Sound
 
-from .atomic import writing
+from .atomic import full_disk_error, is_full_disk, writing
+from .codecs import Codec, find_codec
+from .film_frames import make_frame
+from .film_notes import append_notes
+from .film_palette import TICKS_PER_S, Palette
+from .film_sound import SoundStream
+from .film_webp import WebpFilm
+from .pipeline import runs
 from .rates import check_film, check_rate
 
 Pixels = NDArray[np.uint8]
@@ -25,61 +32,81 @@ Pixels = NDArray[np.uint8]
 ENCODER_THREADS = 4
 """Fixed, because what x264 writes depends on it; on fewer cores they share."""
 
-VIDEO_OPTIONS = {"preset": "veryfast", "crf": "18"}
-"""crf 18 is where x264's losses stop being visible; veryfast costs half of medium for a tenth more bytes."""
-
-AUDIO_BITS_PER_S = 128_000
-AUDIO_BLOCK = 1024
-"""Samples of one AAC frame."""
-
 BT709 = 1
 """The code of ITU-R BT.709 for primaries, transfer and matrix. Source: ITU-T H.273, tables 2 to 4."""
+
+Shown = tuple[Pixels, int, int]
+"""A picture, the number of the frame that it begins with, and for how many frames it stays."""
+
+
+class Film(Protocol):
+    """A file that is being written."""
+
+    def show(self, pixels: Pixels, start: int, count: int) -> None:
+        """Adds a picture that stays for ``count`` frames from frame ``start`` on."""
+
+    def finish(self) -> None:
+        """Writes what is still held back."""
 
 
 def write_film(
     frames: Iterable[Pixels],
     path: Path | str,
     *,
-    fps: float,
+    fps: float | Fraction,
     size_px: tuple[int, int],
     sound: Sound | None = None,
     notes: Mapping[str, str] | None = None,
+    transparent: bool = False,
+    variable: bool = False,
 ) -> None:
-    """Writes frames and their sound as a film that starts to play before it is wholly loaded.
+    """Writes frames and their sound as a film; the suffix picks the kind.
 
     The picture of the last frame stays until the sound ends; a sound that ends first is followed by silence, so both
-    streams last as long.
+    streams last as long. Kinds without sound leave it out. Where a kind needs even sides, the last row or column is
+    shown twice.
 
     Args:
-        frames: each (H, W, 4) uint8 sRGB; taken one at a time.
+        frames: each (H, W, 4) uint8 sRGB, straight alpha; taken one at a time.
         path: where to; the folder exists.
         fps: frames a second, 1..240.
-        size_px: (width, height) of every frame, even numbers.
+        size_px: (width, height) of every frame.
         sound: none makes a film without a sound stream.
         notes: keywords and texts.
+        transparent: whether there are pixels that are not opaque.
+        variable: whether equal frames in a row are written as one that stays for longer.
 
     Raises:
         RangeError: the rate or the size does not suit.
-        MienError: there is no frame, or the place cannot be written.
+        MienError: there is no frame, the encoder fails, or the place cannot be written.
     """
-    check_film(path, fps, size_px)
-    rate = check_rate(fps)
-    tags = {key.lower(): value for key, value in (notes or {}).items()}
-    options = {"movflags": "+faststart+use_metadata_tags", "fflags": "+bitexact"}
-    with writing(path) as temporary, av.open(str(temporary), "w", format="mp4", options=options) as container:
-        container.metadata.update(tags)
-        picture = _add_picture(container, rate, size_px)
-        voice = _Voice(container, sound) if sound is not None else None
-        count = 0
-        for count, pixels in enumerate(_held(frames, rate, sound), start=1):
-            container.mux(picture.encode(_to_frame(pixels, count - 1, rate, size_px)))
-            if voice:
-                voice.play_until(Fraction(count) / rate)
-        if not count:
-            raise MienError(f"{path}: a film needs one frame at least, got none")
-        container.mux(picture.encode(None))
-        if voice:
-            voice.finish()
+    check_film(path, fps, size_px, transparent=transparent)
+    rate, codec, notes = check_rate(fps), find_codec(path), notes or {}
+    voice = sound if codec.sound else None
+    held = _held(_checked(frames, size_px), rate, voice)
+    shown = _numbered(runs(held) if variable or codec.spaced else ((pixels, 1) for pixels in held))
+    with writing(path) as temporary:
+        with (
+            _encoder_errors(path, codec),
+            _open(temporary, codec, rate, size_px, transparent, voice, notes) as film,
+        ):
+            count = 0
+            for pixels, start, count in shown:
+                film.show(pixels, start, count)
+            if not count:
+                raise MienError(f"{path}: a film needs one frame at least, got none")
+            film.finish()
+        append_notes(temporary, codec.container, notes)
+
+
+def _checked(frames: Iterable[Pixels], size_px: tuple[int, int]) -> Iterator[Pixels]:
+    for number, pixels in enumerate(frames):
+        if pixels.shape != (size_px[1], size_px[0], 4) or pixels.dtype != np.uint8:
+            raise MienError(
+                f"frame {number}: want {size_px[0]}x{size_px[1]} pixels RGBA of 8 bits, "
+                f"got an array {pixels.shape} of {pixels.dtype}"
+            )
+        yield pixels
 
 
 def _held(frames: Iterable[Pixels], rate: Fraction, sound: Sound | None) -> Iterator[Pixels]:
@@ -94,58 +121,99 @@ def _held(frames: Iterable[Pixels], rate: Fraction, sound: Sound | None) -> Iter
             yield pixels
 
 
-def _add_picture(container: Any, rate: Fraction, size_px: tuple[int, int]) -> Any:
-    stream = container.add_stream("libx264", rate=rate, options=dict(VIDEO_OPTIONS))
-    stream.width, stream.height = size_px
-    stream.pix_fmt = "yuv420p"
-    context = stream.codec_context
-    context.thread_count = ENCODER_THREADS
-    context.color_range = ColorRange.MPEG
-    context.color_primaries = context.color_trc = context.colorspace = BT709
-    return stream
+def _numbered(stays: Iterable[tuple[Pixels, int]]) -> Iterator[Shown]:
+    start = 0
+    for pixels, count in stays:
+        yield pixels, start, count
+        start += count
 
 
-def _to_frame(pixels: Pixels, number: int, rate: Fraction, size_px: tuple[int, int]) -> VideoFrame:
-    if pixels.shape != (size_px[1], size_px[0], 4):
-        raise MienError(f"frame {number}: want {size_px[0]}x{size_px[1]} pixels RGBA, got an array {pixels.shape}")
-    frame = VideoFrame.from_ndarray(np.ascontiguousarray(pixels), format="rgba").reformat(
-        format="yuv420p",
-        dst_colorspace=Colorspace.ITU709,
-        src_color_range=ColorRange.JPEG,
-        dst_color_range=ColorRange.MPEG,
-    )
-    frame.pts, frame.time_base = number, 1 / rate
-    return frame
+@contextmanager
+def _encoder_errors(path: Path | str, codec: Codec) -> Iterator[None]:
+    """FFmpeg's errors in words."""
+    try:
+        yield
+    except av.FFmpegError as error:
+        if isinstance(error, OSError) and is_full_disk(error):
+            raise full_disk_error(path) from error
+        raise MienError(
+            f"{path}: the encoder {codec.picture} gave up ({error.strerror}) — try another size or another format"
+        ) from error
 
 
-class _Voice:
-    """The sound stream, fed in step with the picture so that no packet waits long."""
+@contextmanager
+def _open(
+    path: Path,
+    codec: Codec,
+    rate: Fraction,
+    size_px: tuple[int, int],
+    transparent: bool,
+    sound: Sound | None,
+    notes: Mapping[str, str],
+) -> Iterator[Film]:
+    if codec.container == "webp":
+        with path.open("r+b") as file:
+            yield WebpFilm(file, codec, rate, size_px, transparent, notes)
+        return
+    options = {**codec.container_options, "fflags": "+bitexact"}
+    with av.open(str(path), "w", format=codec.container, options=options) as container:
+        container.metadata.update({key.lower(): value for key, value in notes.items()})
+        yield _ContainerFilm(container, codec, rate, size_px, transparent, sound)
 
-    def __init__(self, container: Any, sound: Sound) -> None:
-        self.container, self.sound = container, sound
-        self.stream = container.add_stream("aac", rate=sound.rate_hz, layout="mono")
-        self.stream.bit_rate = AUDIO_BITS_PER_S
-        self.place, self.end = 0, 0
 
-    def play_until(self, time_s: Fraction) -> None:
-        """Encodes whole blocks up to the time that the picture has reached."""
-        self.end = max(round(time_s * self.sound.rate_hz), self.end)
-        while self.place + AUDIO_BLOCK <= self.end:
-            self._encode(AUDIO_BLOCK)
+class _ContainerFilm:
+    """A film in one of FFmpeg's containers."""
+
+    def __init__(
+        self,
+        container: Any,
+        codec: Codec,
+        rate: Fraction,
+        size_px: tuple[int, int],
+        transparent: bool,
+        sound: Sound | None,
+    ) -> None:
+        self._container, self._rate = container, rate
+        self._layout = codec.clear_pixels if transparent else codec.pixels
+        self._palette = Palette(size_px, transparent) if self._layout == "pal8" else None
+        # A palette is chosen for time in ticks of a GIF; all others count frames.
+        self._tick = Fraction(1, TICKS_PER_S) if self._palette else 1 / rate
+        self._stream = _add_pictures(container, codec, rate, size_px, transparent)
+        self._voice = SoundStream(container, sound, codec) if sound is not None else None
+        self._last: tuple[Pixels, VideoFrame] | None = None
+
+    def show(self, pixels: Pixels, start: int, count: int) -> None:
+        frame = self._make(pixels)
+        frame.pts = self._ticks(start)
+        frame.duration = self._ticks(start + count) - frame.pts
+        frame.time_base = self._tick
+        self._container.mux(self._stream.encode(self._palette.reduce(frame) if self._palette else frame))
+        if self._voice:
+            self._voice.play_until((start + count) / self._rate)
 
     def finish(self) -> None:
-        """Encodes what is left, to the sample."""
-        self.end = max(self.end, len(self.sound.samples))
-        while self.place < self.end:
-            self._encode(min(AUDIO_BLOCK, self.end - self.place))
-        self.container.mux(self.stream.encode(None))
+        self._container.mux(self._stream.encode(None))
+        if self._voice:
+            self._voice.finish()
 
-    def _encode(self, count: int) -> None:
-        samples = np.zeros((1, count), dtype=np.int16)
-        given = self.sound.samples[self.place : self.place + count]
-        samples[0, : len(given)] = given
-        frame = AudioFrame.from_ndarray(samples, format="s16", layout="mono")
-        frame.sample_rate = self.sound.rate_hz
-        frame.pts, frame.time_base = self.place, Fraction(1, self.sound.rate_hz)
-        self.container.mux(self.stream.encode(frame))
-        self.place += count
+    def _make(self, pixels: Pixels) -> VideoFrame:
+        """The frame of a picture; that of the one before again, if that is what is shown."""
+        if self._last is None or self._last[0] is not pixels:
+            self._last = pixels, make_frame(pixels, "rgba" if self._palette else self._layout)
+        return self._last[1]
+
+    def _ticks(self, number: int) -> int:
+        return round(Fraction(number) / self._rate / self._tick)
+
+
+def _add_pictures(container: Any, codec: Codec, rate: Fraction, size_px: tuple[int, int], transparent: bool) -> Any:
+    options = {**codec.options, **(codec.clear_options if transparent else {}), "flags": "+bitexact"}
+    stream = container.add_stream(codec.picture, rate=rate, options=options)
+    stream.width, stream.height = ((side + side % 2 if codec.even else side) for side in size_px)
+    stream.pix_fmt = codec.clear_pixels if transparent else codec.pixels
+    context = stream.codec_context
+    context.thread_count = ENCODER_THREADS
+    if stream.pix_fmt.startswith("yuv"):
+        context.color_range = ColorRange.MPEG
+        context.color_primaries = context.color_trc = context.colorspace = BT709
+    return stream
