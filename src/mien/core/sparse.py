@@ -12,6 +12,22 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
+def sort_pairs(first: Ints, second: Ints) -> tuple[Ints, NDArray[np.bool_]]:
+    """Order (N,) of pairs by first, then second number, equal ones as given; and whether each begins a new pair."""
+    order = _stable_order(second)
+    order = order[_stable_order(first[order])]
+    a, b = first[order], second[order]
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (a[1:] != a[:-1]) | (b[1:] != b[:-1])
+    return order, new
+
+
+def _stable_order(numbers: Ints) -> Ints:
+    # NumPy sorts numbers of sixteen bits by their digits, in a tenth of the time that comparing takes.
+    small = not len(numbers) or (numbers.min() >= 0 and numbers.max() < 1 << 16)
+    return np.argsort(numbers.astype(np.uint16) if small else numbers, kind="stable")
+
+
 @dataclass(frozen=True, eq=False)
 class SparseMatrix:
     """Rows of (column, weight) pairs, in compressed rows: row r has entries ``starts[r]:starts[r + 1]``."""
@@ -24,18 +40,14 @@ class SparseMatrix:
     @classmethod
     def from_entries(cls, rows: Ints, columns: Ints, weights: Floats, shape: tuple[int, int]) -> SparseMatrix:
         """The matrix with these entries; equal places are added up in the order given."""
-        order = np.lexsort((columns, rows))
-        rows, columns, weights = rows[order], columns[order], weights[order]
-        new = np.ones(len(rows), dtype=bool)
-        new[1:] = (rows[1:] != rows[:-1]) | (columns[1:] != columns[:-1])
-        place = np.cumsum(new) - 1
-        summed = np.zeros(int(place[-1]) + 1 if len(place) else 0)
-        np.add.at(summed, place, weights)
-        rows, columns = rows[new], columns[new]
+        order, new = sort_pairs(rows, columns)
+        # In order, one after the other: the sum of many weights depends on it.
+        summed = np.bincount(np.cumsum(new) - 1, weights[order]) if len(order) else np.zeros(0)
+        first = order[new]
         keep = summed != 0.0
-        counts = np.bincount(rows[keep], minlength=shape[0])
+        counts = np.bincount(rows[first[keep]], minlength=shape[0])
         starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-        return cls(starts, columns[keep].astype(np.int64), summed[keep], shape[1])
+        return cls(starts, columns[first[keep]].astype(np.int64), summed[keep], shape[1])
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Mesh, Part, Topology
-from .sparse import SparseMatrix
+from .sparse import SparseMatrix, sort_pairs
 
 Ints = NDArray[np.int64]
 Multiply = Callable[[SparseMatrix, NDArray[np.float64]], NDArray[np.float64]]
@@ -76,14 +76,12 @@ def refine(topology: Topology) -> Refinement:
     face = face_number[polygon]
     face_size = np.diff(topology.starts)[chosen]
     face_vertex = count + face
-    edges, edge = np.unique(np.sort(np.stack([start, end], axis=1), axis=1), axis=0, return_inverse=True)
-    edge = edge.reshape(-1)
+    edges, edge = _edges(start, end)
     face_count, edge_count = len(face_size), len(edges)
     edge_vertex = count + face_count + edge
 
     faces_of_edge = np.bincount(edge, minlength=edge_count)
-    listed = {(min(a, b), max(a, b)) for a, b in topology.creases.tolist()}
-    creased = np.array([tuple(pair) in listed for pair in edges.tolist()], dtype=bool)
+    creased = np.isin(_keys(edges, count), _keys(np.sort(topology.creases, axis=1), count))
     sharp = (faces_of_edge != 2) | creased
 
     entries = _Entries()
@@ -101,6 +99,21 @@ def refine(topology: Topology) -> Refinement:
     creases = np.stack([edges[creased, 0], middle, middle, edges[creased, 1]], axis=1).reshape(-1, 2)
     fine, parents = _fine_topology(topology, corner_chosen, face_vertex, edge_vertex, total, creases)
     return Refinement(fine, matrix, parents)
+
+
+def _edges(start: Ints, end: Ints) -> tuple[Ints, Ints]:
+    """(E, 2) edges, lower vertex first, in order, and the edge (C,) that starts at each corner."""
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order, new = sort_pairs(low, high)
+    edge = np.empty(len(order), dtype=np.int64)
+    edge[order] = np.cumsum(new) - 1
+    first = order[new]
+    return np.stack([low[first], high[first]], axis=1), edge
+
+
+def _keys(pairs: Ints, count: int) -> Ints:
+    """A number for each pair (E, 2) of vertices below ``count``."""
+    return pairs[:, 0] * count + pairs[:, 1]
 
 
 class _Entries:

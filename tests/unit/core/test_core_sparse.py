@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mien.core.sparse import SparseMatrix
+from mien.core.sparse import SparseMatrix, sort_pairs
 
 
 def make(entries, shape):
@@ -51,3 +51,11 @@ def test_it_equals_a_dense_matrix(data, rows, columns):
         dense[row, column] += weight
     values = np.arange(columns * 2.0).reshape(columns, 2)
     np.testing.assert_array_equal(make(entries, (rows, columns)).apply(values), dense @ values)
+
+
+@given(st.lists(st.tuples(st.integers(0, 70000), st.integers(0, 3)), max_size=40))
+def test_pairs_are_sorted_as_python_sorts_them(pairs):
+    first, second = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    order, new = sort_pairs(first, second)
+    assert order.tolist() == sorted(range(len(pairs)), key=lambda number: pairs[number])
+    assert new.sum() == len(set(pairs))
