@@ -25,6 +25,25 @@ SETTINGS = "settings"
 """Name of the lowest layer of a timeline: what the face looks like while nothing moves it."""
 
 
+KERNELS = (
+    "mien.formats.yuv",
+    "mien.render.lighting",
+    "mien.render.placing",
+    "mien.render.refining",
+    "mien.render.spans",
+)
+"""Modules with compiled code."""
+
+
+def warmup(report: Callable[[str], None] | None = None) -> None:
+    """Load, and if need be compile, what would otherwise be compiled at its first use; the report hears of it."""
+    from .compiling import load_kernels, on_compile
+
+    if report is not None:
+        on_compile(report)
+    load_kernels(KERNELS)
+
+
 def default_scene() -> Scene:
     """The scene where none is asked for: seen a little from its left."""
     return Scene().seen("three-quarter")

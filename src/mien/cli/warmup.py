@@ -11,7 +11,7 @@ def warmup(quiet: options.Quiet = False) -> None:
     \b
     mien warmup
     """
-    from mien.render import warmup
+    from mien.api import warmup
 
     from .stages import Stages, format_time
 

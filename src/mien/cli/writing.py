@@ -30,6 +30,6 @@ def write(performance: Performance, out: Path, fps: float, threads: int | None, 
 
 def prepare(stages: Stages) -> None:
     """Compiles the rasteriser when it is used for the first time, and says so."""
-    from mien.render import warmup
+    from mien.api import warmup
 
     warmup(stages.say)

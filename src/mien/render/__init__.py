@@ -3,8 +3,7 @@
 Nothing here imports Numba before the first picture is drawn.
 """
 
-from .compiling import on_compile
 from .drawing import draw_drawing
-from .renderer import Renderer, draw, draw_mesh, warmup
+from .renderer import Renderer, draw, draw_mesh
 
-__all__ = ["Renderer", "draw", "draw_drawing", "draw_mesh", "on_compile", "warmup"]
+__all__ = ["Renderer", "draw", "draw_drawing", "draw_mesh"]

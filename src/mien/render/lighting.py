@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .kernels import compiled
+from mien.compiling import kernel
 
 _TINY = 2.2250738585072014e-308
 
 
-@compiled
+@kernel("f8[:,:], i8[:], i8[:], i8, i8, f8[:,:], b1[:], f8[:]")
 def sum_normals(points, corners, starts, first, last, normals, facing, viewer):
     """Fill ``normals`` (F, 3), twice a polygon's area long, and ``facing`` (F,) for polygons first:last."""
     for f in range(first, last):
@@ -37,12 +37,12 @@ def sum_normals(points, corners, starts, first, last, normals, facing, viewer):
         facing[f] = (tx * nx + ty * ny) + tz * nz > 0.0
 
 
-@compiled
+@kernel()
 def _scale(x, y, z):
     return 1.0 / np.sqrt(max((x * x + y * y) + z * z, _TINY))
 
 
-@compiled
+@kernel()
 def _whole_power(base, power):
     result = 1.0
     while power > 0:
@@ -53,10 +53,14 @@ def _whole_power(base, power):
     return result
 
 
-@compiled
+@kernel(
+    "f8[:,:], i8[:], i8[:], f8[:,:], f8[:,:], f8[:,:], f8[:,:], f8[:], i8, "
+    "i8[:], i8[:], i8[:], b1[:], b1[:], f8[:], i8[:], i8[:], i8[:], i8, i8, f8[:,:], f8[:,:]"
+)
 def light_nodes(
-    points, corners, starts, normals, own_normals, lamps, ambient, scene, nodes, sums, first, last, diffuse, highlight
-):
+    points, corners, starts, normals, own_normals, lamps, ambient, viewer, cosine_power,
+    vertex, polygon, back, lit, own, gloss, power, sum_starts, sum_columns, first, last, diffuse, highlight,
+):  # fmt: skip
     """Fill ``diffuse`` and ``highlight`` (N + M, 3) for nodes first:last and their backs.
 
     Args:
@@ -67,17 +71,15 @@ def light_nodes(
         own_normals: (V, 3) normals of round parts.
         lamps: (L, 7) place, colour, wrap.
         ambient: (2, 3) light from below and from above.
-        scene: (4,) viewer's place and strength of all highlights; and the cosine power.
-        nodes: columns of the plan: vertex, polygon, back (or -1), lit, round, gloss, gloss power.
-        sums: columns of the plan's ``normal_sum``: starts, columns.
+        viewer: (4,) viewer's place and strength of all highlights.
+        cosine_power: whole power of the diffuse term.
+        vertex, polygon, back, lit, own, gloss, power: ``Plan.columns``.
+        sum_starts, sum_columns: of the plan's ``normal_sum``.
         first: first node.
         last: behind the last node.
         diffuse: filled.
         highlight: filled.
     """
-    vertex, polygon, back, lit, own, gloss, power = nodes
-    sum_starts, sum_columns = sums
-    viewer, cosine_power = scene
     for n in range(first, last):
         x, y, z = 0.0, 0.0, 0.0
         nx, ny, nz = 0.0, 0.0, 0.0

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .kernels import compiled
+from mien.compiling import kernel
 
 
-@compiled
+@kernel("f8[:,:], f8[:,:], f8[:], f8[:], i8, i8, f8[:,:], u1[:], i4[:,:], f8[:]")
 def place_points(points, axes, position, settings, first, last, view, codes, places, inverse):
     """Fill rows first:last: the camera's frame, the planes a point lies outside of, its place and 1 / depth.
 
@@ -44,9 +44,9 @@ def place_points(points, axes, position, settings, first, last, view, codes, pla
         places[v, 1] = np.int32(np.rint(min(max(down * steps, -limit), limit)))
 
 
-@compiled
-def sort_out(triangles, codes, places, two_sided, whole, corners, cut):
-    """Number of triangles that are wholly in the picture and seen, and of those that its border cuts.
+@kernel("i8[:,:], u1[:], i4[:,:], b1[:], i8[:], i4[:,:], i8[:], i8[:]")
+def sort_out(triangles, codes, places, two_sided, whole, corners, cut, counts):
+    """Fill ``counts`` (2,): triangles that are wholly in the picture and seen, and those that its border cuts.
 
     Their numbers go to the front of ``whole`` and ``cut``, the corners of the whole ones to that of ``corners``.
     """
@@ -66,4 +66,4 @@ def sort_out(triangles, codes, places, two_sided, whole, corners, cut):
             whole[seen] = t
             corners[seen, 0], corners[seen, 1], corners[seen, 2] = a, b, c
             seen += 1
-    return seen, crossing
+    counts[0], counts[1] = seen, crossing

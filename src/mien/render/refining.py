@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from .kernels import compiled
+from mien.compiling import kernel
 
 
-@compiled
+@kernel("i8[:], i8[:], f8[:], f8[:,:], i8, i8, f8[:,:]")
 def multiply_rows(starts, columns, weights, values, first, last, out):
     """Fill rows first:last of ``out`` (R, 3) with the matrix's products with ``values`` (C, 3)."""
     for row in range(first, last):

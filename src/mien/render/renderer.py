@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
 from mien.core.sparse import SparseMatrix
 
-from . import reference
+from . import lighting, placing, reference, refining, spans
 from .camera import FAR_OUT, NEAR_M, SUBPIXELS, Camera
-from .compiling import Report, load, on_compile, timed
 from .drawing import draw_drawing
 from .pixels import background_rows, resolve, srgb_tables, straight
 from .plan import Plan
@@ -98,7 +97,6 @@ class Renderer:
 
     def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
         """What ``shade.light_mesh`` says, by compiled code on all threads."""
-        lighting = load().lighting
         topology = mesh.topology
         polygons, nodes, shades = topology.polygon_count, len(plan.vertex), len(plan.lit)
         normals, facing = np.empty((polygons, 3)), np.empty(polygons, dtype=np.bool_)
@@ -106,19 +104,18 @@ class Renderer:
         viewer = np.array([*scene.position, scene.gloss])
         self._share(lighting.sum_normals, [(*places, a, b, normals, facing, viewer) for a, b in self._parts(polygons)])
         own = own_normals(mesh) if len(plan.round) else normals
-        lamps = np.array([[*lamp.position, *lamp.color, lamp.wrap] for lamp in scene.lamps])
-        settings = (own, lamps, np.array(scene.ambient), (viewer, scene.cosine_power), plan.columns)
+        lamps = np.array([[*lamp.position, *lamp.color, lamp.wrap] for lamp in scene.lamps]).reshape(-1, 7)
+        settings = (own, lamps, np.array(scene.ambient), viewer, scene.cosine_power, *plan.columns)
         sums = (plan.normal_sum.starts, plan.normal_sum.columns)
         diffuse, highlight = np.empty((shades, 3)), np.empty((shades, 3))
         self._share(
             lighting.light_nodes,
-            [(*places, normals, *settings, sums, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
+            [(*places, normals, *settings, *sums, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
         )
         return Shades(diffuse, highlight, facing)
 
     def _place(self, points: NDArray[np.float64], plan: Plan, camera: Camera) -> Placed:
         """What ``triangles.place_mesh`` says, by compiled code."""
-        placing = load().placing
         count, triangles = len(points), plan.triangles.shape[1]
         view, inverse = np.empty((count, 3)), np.empty(count)
         codes, places = np.empty(count, dtype=np.uint8), np.empty((count, 2), dtype=np.int32)
@@ -130,7 +127,9 @@ class Renderer:
         )
         whole, cut = np.empty(triangles, dtype=np.int64), np.empty(triangles, dtype=np.int64)
         corners = np.empty((triangles, 3), dtype=np.int32)
-        seen, crossing = placing.sort_out(plan.triangles, codes, places, plan.triangle_two_sided, whole, corners, cut)
+        counts = np.empty(2, dtype=np.int64)
+        placing.sort_out(plan.triangles, codes, places, plan.triangle_two_sided, whole, corners, cut, counts)
+        seen, crossing = counts
         return Placed(view, places, inverse, whole[:seen], corners[:seen], cut[:crossing])
 
     def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -138,7 +137,7 @@ class Renderer:
         rows, _ = matrix.shape
         out = np.empty((rows, 3))
         entries = (matrix.starts, matrix.columns, matrix.weights, np.ascontiguousarray(values))
-        self._share(load().refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
+        self._share(refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
         return out
 
     def _parts(self, count: int) -> list[tuple[int, int]]:
@@ -147,7 +146,6 @@ class Renderer:
         return list(pairwise(ends))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
-        spans = load().spans
         width, height = self.scene.size_px
         raster_height, n = self._camera.height, self._oversampling
         count = len(triangles.corners)
@@ -161,10 +159,10 @@ class Renderer:
         counts = np.zeros(-(-raster_height // BAND_ROWS) + 1, dtype=np.int64)
         spans.count_bands(edges, raster_height, BAND_ROWS, counts)
         members = np.empty(int(counts[-1]), dtype=np.int64)
-        spans.sort_bands(edges, raster_height, BAND_ROWS, counts, members)
+        spans.sort_bands(edges, raster_height, BAND_ROWS, counts.copy(), members)
 
         if not self._rows:
-            self._rows = [np.empty((4, BAND_ROWS, width * n), dtype=np.float32) for _ in range(self.threads)]
+            self._rows = [np.empty((4, BAND_ROWS * width * n), dtype=np.float32) for _ in range(self.threads)]
         picture = np.empty((height, width), dtype=np.uint32)
         plain = straight(self._behind).view(np.uint32).reshape(-1)
         frame = (edges, planes, counts, members)
@@ -210,20 +208,3 @@ def draw_mesh(
     """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is; the reference rasteriser is slow and equal."""
     with Renderer(scene, threads, samples=samples, rasteriser=rasteriser) as renderer:
         return renderer.draw_mesh(mesh)
-
-
-def warmup(report: Report | None = None) -> float:
-    """Seconds that it took to load, and if need be compile, all compiled code; ``report`` is told when it compiles."""
-    from mien.core import Material, build_topology
-
-    if report is not None:
-        on_compile(report)
-    corners = np.array([[0, 1, 2]])
-    points = np.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.0, 0.1, 0.0]])
-    mesh = Mesh(build_topology(3, [("sample", corners, Material(subdivide=True))]), points, np.full((3, 3), 0.5))
-
-    def every() -> None:
-        with Renderer(Scene(size_px=(32, 32))) as renderer:
-            renderer.draw_mesh(renderer.refine(mesh))
-
-    return timed(every)

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .kernels import compiled
+from mien.compiling import kernel
 
 SLACK = 2.0**-33
 """Less than any fraction that the place of an edge can have, more than rounding can add to it."""
 
 
-@compiled
+@kernel("i4[:,:], f8[:], i4[:,:], f8[:,:], i4[:,:], i8, i8, i8[:,:], f8[:,:,:]")
 def set_up(places, inverse, corners, colors, color_of, first, last, edges, planes):
     """Fill for triangles first:last: ``edges`` (T, 10) int64 for the spans, ``planes`` (T, 5, 3) float64.
 
@@ -57,7 +57,7 @@ def set_up(places, inverse, corners, colors, color_of, first, last, edges, plane
         edges[t, 7], edges[t, 8], edges[t, 9] = iby, icx, icy
 
 
-@compiled
+@kernel("i8[:,:], i8, i8, i8[:]")
 def count_bands(edges, height, band_rows, counts):
     """Turn zeros into places in one list of triangles: band b has its entries ``counts[b]:counts[b + 1]``."""
     for t in range(len(edges)):
@@ -69,10 +69,9 @@ def count_bands(edges, height, band_rows, counts):
         counts[b + 1] += counts[b]
 
 
-@compiled
-def sort_bands(edges, height, band_rows, counts, members):
-    """Fill the list that ``count_bands`` measured, triangles in their order."""
-    following = counts.copy()
+@kernel("i8[:,:], i8, i8, i8[:], i8[:]")
+def sort_bands(edges, height, band_rows, following, members):
+    """Fill the list that ``count_bands`` measured, triangles in their order; ``following`` is a copy of the places."""
     for t in range(len(edges)):
         top, end = max(edges[t, 0], 0), min(edges[t, 2], height)
         if top < end:
@@ -81,7 +80,7 @@ def sort_bands(edges, height, band_rows, counts, members):
                 following[b] += 1
 
 
-@compiled
+@kernel()
 def _first_centre(ax, ay, across, inverse, centre):
     """First column whose centre, in the row of that centre, is not left of an edge through a; exact.
 
@@ -92,7 +91,7 @@ def _first_centre(ax, ay, across, inverse, centre):
     return int(np.ceil((centre - ay) * across * inverse + (ax - 128.0) * (1.0 / 256.0) - SLACK))
 
 
-@compiled
+@kernel()
 def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue):
     """Draw rows top:end of triangle t.
 
@@ -144,25 +143,25 @@ def _draw_triangle(edges, planes, t, top, end, width, depth, red, green, blue):
 
 
 # Loops where a slice could be assigned: Numba takes ten times as long to compile an assignment to a slice.
-@compiled
+@kernel()
 def _fill(values, value):
     for x in range(len(values)):
         values[x] = value
 
 
-@compiled
+@kernel()
 def _copy(values, out):
     for x in range(len(out)):
         out[x] = values[x]
 
 
-@compiled
+@kernel()
 def _show_behind(depth, color, behind):
     for x in range(len(color)):
         color[x] = color[x] if depth[x] > np.float32(0.0) else behind
 
 
-@compiled
+@kernel()
 def _average(upper, lower, out):
     for x in range(np.uint64(len(out))):
         i = np.uint64(2) * x
@@ -170,7 +169,7 @@ def _average(upper, lower, out):
         out[x] = ((upper[i] + upper[j]) + (lower[i] + lower[j])) * np.float32(0.25)
 
 
-@compiled
+@kernel()
 def _encode(linear, low, borders, codes):
     for x in range(np.uint64(len(codes))):
         value = min(max(linear[x], np.float32(0.0)), np.float32(1.0))
@@ -178,20 +177,20 @@ def _encode(linear, low, borders, codes):
         codes[x] = code + (value >= borders[np.uint64(code)])
 
 
-@compiled
+@kernel()
 def _divide(color, alpha):
     for x in range(len(color)):
         color[x] = color[x] / alpha[x] if alpha[x] > np.float32(0.0) else np.float32(0.0)
 
 
-@compiled
+@kernel()
 def _encode_alpha(alpha, codes):
     for x in range(len(codes)):
         value = min(alpha[x], np.float32(1.0)) * np.float32(255.0) + np.float32(0.5)
         codes[x] = np.uint8(np.int32(value))
 
 
-@compiled
+@kernel()
 def _pack(codes, out):
     red, green, blue, alpha = codes[0], codes[1], codes[2], codes[3]
     for x in range(np.uint64(len(out))):
@@ -199,8 +198,8 @@ def _pack(codes, out):
         out[x] = low_half | (np.uint32(blue[x]) << np.uint32(16)) | (np.uint32(alpha[x]) << np.uint32(24))
 
 
-@compiled
-def _resolve_row(rows, row, n, first, last, behind, low, borders, means, codes, out):
+@kernel()
+def _resolve_row(rows, row, width, n, first, last, behind, low, borders, means, codes, out):
     """Pixels first:last of one row, out of the n rows of samples from ``row`` on.
 
     One short loop after the other over the whole row, each of which becomes vector code, takes a quarter of the time
@@ -212,16 +211,21 @@ def _resolve_row(rows, row, n, first, last, behind, low, borders, means, codes, 
         # The depth is no longer needed after the three colours: its rows then hold the alpha.
         plane = rows[(v + 1) % 4]
         for k in range(row, row + n):
-            part = plane[k, first * n : last * n]
+            part = plane[k * width + first * n : k * width + last * n]
             if v < 3:
-                _show_behind(rows[0, k, first * n : last * n], part, behind[v])
+                _show_behind(rows[0, k * width + first * n : k * width + last * n], part, behind[v])
             else:
                 for x in range(len(part)):
                     part[x] = one if part[x] > np.float32(0.0) else behind[3]
         if n == 2:
-            _average(plane[row, first * 2 : last * 2], plane[row + 1, first * 2 : last * 2], means[v, :count])
+            upper, lower = row * width, (row + 1) * width
+            _average(
+                plane[upper + first * 2 : upper + last * 2],
+                plane[lower + first * 2 : lower + last * 2],
+                means[v, :count],
+            )
         else:
-            _copy(plane[row, first:last], means[v, :count])
+            _copy(plane[row * width + first : row * width + last], means[v, :count])
     if opaque:
         _fill(codes[3, :count], 255)
     else:
@@ -233,17 +237,18 @@ def _resolve_row(rows, row, n, first, last, behind, low, borders, means, codes, 
     _pack(codes[:, :count], out[first:last])
 
 
-@compiled
+@kernel(
+    "i8, i8, i8, i8, i8[:,:], f8[:,:,:], i8[:], i8[:], f4[:,:], f4[:,:], u1[:,:], f4[:,:], u4[:], u1[:], f4[:], u4[:,:]"
+)
 def draw_bands(
     start, stride, band_rows, n, edges, planes, counts, members, rows, means, codes, behind, plain, low, borders, out
 ):
     """Draw bands start, start + stride, … into ``out`` (H, W), packed pixels.
 
-    ``rows`` (4, band_rows, W n), ``means`` (4, W) and ``codes`` (4, W) are this thread's own.
+    ``rows`` (4, band_rows W n), ``means`` (4, W) and ``codes`` (4, W) are this thread's own.
     """
     height, width = out.shape[0] * n, out.shape[1] * n
-    depth, red = rows[0].reshape(-1), rows[1].reshape(-1)
-    green, blue = rows[2].reshape(-1), rows[3].reshape(-1)
+    depth, red, green, blue = rows[0], rows[1], rows[2], rows[3]
     for b in range(start, len(counts) - 1, stride):
         top, end = b * band_rows, min((b + 1) * band_rows, height)
         _fill(depth, 0.0)
@@ -262,4 +267,4 @@ def draw_bands(
                 continue
             _fill(out[y, :first], plain[y])
             _fill(out[y, last:], plain[y])
-            _resolve_row(rows, row, n, first, last, behind[y], low, borders, means, codes, out[y])
+            _resolve_row(rows, row, width, n, first, last, behind[y], low, borders, means, codes, out[y])

@@ -84,7 +84,7 @@ def _no_long_work(monkeypatch: pytest.MonkeyPatch) -> None:
         raise AssertionError("long work began before the mistake was found")
 
     monkeypatch.setattr("mien.speech.speak", fail)
-    monkeypatch.setattr("mien.render.warmup", fail)
+    monkeypatch.setattr("mien.api.warmup", fail)
 
 
 @pytest.mark.parametrize("case", MISTAKES)

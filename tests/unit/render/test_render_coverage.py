@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mien.core import Material, Mesh, Scene, build_topology
-from mien.render import draw_mesh
-from mien.render.compiling import load
+from mien.render import draw_mesh, spans
 from mien.render.reference import coverage
 
 BOTH = pytest.mark.parametrize("rasteriser", ["compiled", "reference"])
@@ -155,12 +154,12 @@ def test_ends_of_compiled_spans_are_exact_in_the_largest_pictures(
     centre = data.draw(st.integers(first, last)) * 256 + 128
     down = by - ay
     wanted = -(-((ax - 128) * down + (centre - ay) * (bx - ax)) // (256 * down))
-    found = load().spans._first_centre(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
+    found = spans._first_centre.dispatcher(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
     assert found == wanted
 
 
 def test_ends_of_compiled_spans_on_a_centre_belong_to_the_pixel() -> None:
-    first_centre = load().spans._first_centre
+    first_centre = spans._first_centre.dispatcher
     for down in (3, 7, 4093, 2**23 - 1):
         for column in (0, 1, 16383, 32767):
             x = column * 256 + 128
