@@ -25,7 +25,7 @@ class Codec:
     Attributes:
         suffix: lower case.
         doc: what is in the file.
-        container: FFmpeg's name of the file format.
+        container: name of the file format; FFmpeg's, but for those that are written here.
         container_options: of what writes it.
         picture: FFmpeg's name of the encoder of pictures.
         pixels: FFmpeg's name of the layout of opaque pixels that it is given.
@@ -133,11 +133,10 @@ CODECS: tuple[Codec, ...] = (
         ".apng",
         "animated PNG, lossless, with transparency, no sound",
         container="apng",
-        picture="apng",
+        picture="png",
         pixels="rgb24",
         clear_pixels="rgba",
-        container_options={"plays": "0"},
-        options={"pred": "mixed"},
+        options={"pred": "mixed", "compression_level": "5"},
         spaced=True,
     ),
     Codec(

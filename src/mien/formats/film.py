@@ -19,8 +19,9 @@ from mien.core import MienError, Sound
 
 from .atomic import full_disk_error, is_full_disk, writing
 from .codecs import Codec, find_codec
+from .film_apng import ApngFilm
 from .film_frames import make_frame
-from .film_notes import append_notes
+from .film_notes import append_comment
 from .film_palette import TICKS_PER_S, Palette
 from .film_sound import SoundStream
 from .film_webp import WebpFilm
@@ -96,7 +97,8 @@ def write_film(
             if not count:
                 raise MienError(f"{path}: a film needs one frame at least, got none")
             film.finish()
-        append_notes(temporary, codec.container, notes)
+        if notes and codec.container == "gif":
+            append_comment(temporary, notes)
 
 
 def _checked(frames: Iterable[Pixels], size_px: tuple[int, int]) -> Iterator[Pixels]:
@@ -151,14 +153,18 @@ def _open(
     sound: Sound | None,
     notes: Mapping[str, str],
 ) -> Iterator[Film]:
-    if codec.container == "webp":
+    if codec.container in _OWN:
         with path.open("r+b") as file:
-            yield WebpFilm(file, codec, rate, size_px, transparent, notes)
+            yield _OWN[codec.container](file, codec, rate, size_px, transparent, notes)
         return
     options = {**codec.container_options, "fflags": "+bitexact"}
     with av.open(str(path), "w", format=codec.container, options=options) as container:
         container.metadata.update({key.lower(): value for key, value in notes.items()})
         yield _ContainerFilm(container, codec, rate, size_px, transparent, sound)
+
+
+_OWN: dict[str, type[ApngFilm] | type[WebpFilm]] = {"apng": ApngFilm, "webp": WebpFilm}
+"""Containers that are not left to FFmpeg."""
 
 
 class _ContainerFilm:

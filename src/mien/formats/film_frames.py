@@ -83,7 +83,8 @@ def _blank(words: yuv.Words, layout: str) -> VideoFrame:
 
 def _codes(plane: VideoPlane, kind: type[np.uint8] | type[np.uint16]) -> yuv.Plane:
     """(H, at least W) codes of a plane, to be written to."""
-    return np.frombuffer(memoryview(plane), dtype=kind).reshape(plane.height, -1)
+    codes: yuv.Plane = np.frombuffer(memoryview(plane), dtype=kind)
+    return codes.reshape(plane.height, -1)
 
 
 def _spread(words: yuv.Words) -> yuv.Words:

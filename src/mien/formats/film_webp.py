@@ -11,17 +11,16 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
-import av
 import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import MienError
 
 from .codecs import Codec
-from .film_frames import make_frame
 from .film_notes import format_xmp
+from .film_stills import StillEncoder
 
 Pixels = NDArray[np.uint8]
 
@@ -51,11 +50,7 @@ class WebpFilm:
     ) -> None:
         self._file, self._codec, self._rate = file, codec, rate
         self._size = b"".join(_int24(side - 1) for side in size_px)
-        self._layout = codec.clear_pixels if transparent else codec.pixels
-        self._encoder: Any = av.CodecContext.create(codec.picture, "w")
-        self._encoder.width, self._encoder.height = size_px
-        self._encoder.pix_fmt, self._encoder.time_base = self._layout, 1 / rate
-        self._encoder.options = {**codec.options, **(codec.clear_options if transparent else {})}
+        self._encoder = StillEncoder(codec, rate, size_px, transparent)
         self._notes = format_xmp(notes) if notes else b""
         flags = ANIMATED | (ALPHA if transparent else 0) | (XMP if notes else 0)
         file.write(b"RIFF\0\0\0\0WEBP")
@@ -65,13 +60,10 @@ class WebpFilm:
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         """Adds a picture that stays for ``count`` frames from frame ``start`` on."""
-        frame = make_frame(pixels, self._layout)
-        frame.pts = start
         begin, end = (round(number * MS / self._rate) for number in (start, start + count))
         picture = b"".join(
             _chunk(name, data)
-            for packet in self._encoder.encode(frame)
-            for name, data in _chunks(bytes(packet))
+            for name, data in _chunks(self._encoder.encode(pixels))
             if name in (b"ALPH", b"VP8 ", b"VP8L")
         )
         self._write(b"ANMF", bytes(6) + self._size + _int24(end - begin) + bytes([REPLACE]) + picture)

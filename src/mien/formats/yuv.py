@@ -6,6 +6,8 @@ processor. Chroma of 4:2:0 is the mean of two by two pixels.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +15,7 @@ from mien.compiling import kernel
 
 Pixels = NDArray[np.uint8]
 Words = NDArray[np.uint32]
-Plane = NDArray[np.uint8] | NDArray[np.uint16]
+Plane = NDArray[np.unsignedinteger[Any]]
 
 # Source: ITU-R BT.709-6, items 3.2 to 3.5: 219 and 224 steps of 255, times 2^16. Each row of chroma adds up to nothing,
 # so that greys have none.
