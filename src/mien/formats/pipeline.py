@@ -19,6 +19,9 @@ Item = TypeVar("Item")
 DEPTH = 3
 """Items that wait at most: enough that neither side idles, few enough that memory does not grow with the film."""
 
+AHEAD_BYTES = 1 << 28
+"""Of pixels that wait at most, where more than one picture of them is too much."""
+
 LOOK_S = 0.1
 """How often a waiting worker looks whether anybody still wants its items."""
 
@@ -67,6 +70,11 @@ def run_ahead(items: Iterator[Item], depth: int = DEPTH) -> Generator[Item, None
     finally:
         unwanted.set()
         worker.join()
+
+
+def at_once(size_px: tuple[int, int], most: int = DEPTH) -> int:
+    """How many pictures of a size may wait: ``most``, fewer where they are huge, and one at least."""
+    return max(1, min(most, AHEAD_BYTES // (4 * size_px[0] * size_px[1])))
 
 
 def runs(frames: Iterable[NDArray[np.uint8]]) -> Generator[tuple[NDArray[np.uint8], int], None, None]:

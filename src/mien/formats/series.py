@@ -15,6 +15,7 @@ from mien.core import MienError, Sound
 
 from .atomic import check_file, check_new_folder, writing_folder, writing_series
 from .picture import Picture
+from .pipeline import at_once
 from .wav import write_samples
 
 FRAME_PATTERN = "frame_%04d.png"
@@ -87,7 +88,7 @@ def _write_frames(frames: Iterable[NDArray[np.uint8]], folder: Path, pattern: st
         waiting: deque[Future[None]] = deque()
         for number, pixels in enumerate(frames):
             waiting.append(pool.submit(write, pixels, pattern % number))
-            if len(waiting) > 2 * _ENCODERS:
+            if len(waiting) > at_once((pixels.shape[1], pixels.shape[0]), 2 * _ENCODERS):
                 waiting.popleft().result()
         for each in waiting:
             each.result()

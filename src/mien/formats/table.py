@@ -18,7 +18,8 @@ class Format:
     Attributes:
         name: short name.
         suffixes: lower case; an empty one stands for a folder.
-        holds: what a user asks for when he names such a file: picture, performance, timeline (to play), plot.
+        holds: what a user asks for when he names such a file: picture, performance, timeline (to play), plot,
+            subtitles (beside a film).
         doc: what is in the file.
     """
 
@@ -35,7 +36,7 @@ FORMATS: tuple[Format, ...] = (
     Format("jpeg", (".jpg", ".jpeg"), ("picture",), "JPEG, over white"),
     Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
     Format("wav", (".wav",), ("performance",), "the sound alone"),
-    Format("subtitles", (".srt", ".vtt"), ("performance",), "what is said, as SubRip or WebVTT subtitles"),
+    Format("subtitles", (".srt", ".vtt"), ("performance", "subtitles"), "what is said, as SubRip or WebVTT subtitles"),
     Format("json", (".json",), ("performance", "timeline"), "everything needed to play it again, sound beside it"),
     Format("csv", (".csv",), ("performance", "timeline"), "one row a frame, one column a parameter"),
     Format("specification", (".spec",), ("timeline",), "Parke's specification list"),

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mien.core import Face, LoadError, MienError, Scene, Sound
-from mien.timeline import Timeline
+from mien.timeline import Rate, Timeline
 from mien.timeline.csv_form import format_csv, parse_csv
 from mien.timeline.json_form import from_json, json_text
 from mien.timeline.specification import FILM_FPS, parse_specifications
@@ -42,7 +42,7 @@ class StoredPerformance:
 
 
 def read_timeline(
-    path: Path | str, load_face: Callable[[str], Face], address: str | None = None, *, fps: float | None = None
+    path: Path | str, load_face: Callable[[str], Face], address: str | None = None, *, fps: Rate | None = None
 ) -> StoredPerformance:
     """The timeline in a file, checked against the face that is to play it.
 
@@ -90,7 +90,7 @@ def write_json(timeline: Timeline, path: Path | str, *, face: Face, scene: Scene
             write_wav(sound, temporary)
 
 
-def write_csv(timeline: Timeline, path: Path | str, *, face: Face, fps: float) -> None:
+def write_csv(timeline: Timeline, path: Path | str, *, face: Face, fps: Rate) -> None:
     """Writes one row a frame with every parameter that something drives.
 
     Raises:

@@ -70,7 +70,7 @@ def test_json_plays_again_bit_for_bit(tmp_path: Path) -> None:
     assert stored.scene == scene
     assert stored.face.name == "small"
     assert stored.same_table
-    assert (stored.timeline.fps, stored.timeline.seed, stored.timeline.title) == (23.976, 3, "Ah")
+    assert (stored.timeline.fps, stored.timeline.seed, stored.timeline.title) == (24000 / 1001, 3, "Ah")
     np.testing.assert_array_equal(stored.sound.samples, performance.sound.samples)
     for mine, theirs in zip(
         draw_frames(performance.timeline, performance.face, scene, 23.976),
@@ -191,7 +191,14 @@ def test_an_unknown_face_in_a_file_is_refused_with_the_file(tmp_path: Path) -> N
     ("name", "settings", "error", "message"),
     [
         ("a.mp5", {}, UnknownNameError, "did you mean '.mp4'"),
-        ("a.webp", {}, UnknownNameError, "suffix of 'a.webp'"),
+        ("a.ogv", {}, UnknownNameError, "suffix of 'a.ogv'"),
+        ("a.mp4", {"subtitles": "brun"}, UnknownNameError, "did you mean 'burn'"),
+        ("a.mp4", {"subtitles": "a.txt"}, UnknownNameError, "suffix of 'a.txt'"),
+        ("a.mp4", {"subtitles": "nowhere/a.srt"}, MienError, "does not exist"),
+        ("a.wav", {"subtitles": "burn"}, MienError, "no pictures to draw subtitles into"),
+        ("a.mp4", {"subtitles": "burn", "scene": Scene(size_px=(64, 64))}, RangeError, "could not be read"),
+        ("frames", {"variable": True}, MienError, "only the pictures of a film"),
+        ("a.gif", {"fps": 60}, RangeError, "at most 50"),
         ("a" * 300 + ".mp4", {}, MienError, "give a shorter one"),
         ("nowhere/a.mp4", {}, MienError, "does not exist"),
         ("a.png", {}, MienError, "a_%04d.png"),
@@ -199,8 +206,9 @@ def test_an_unknown_face_in_a_file_is_refused_with_the_file(tmp_path: Path) -> N
         ("a.mp4", {"fps": float("nan")}, RangeError, "from 1 to 240"),
         ("a.mp4", {"fps": 0}, RangeError, "from 1 to 240"),
         ("frames", {"fps": 0.1}, RangeError, "from 1 to 240"),
-        ("a.mp4", {"scene": Scene(size_px=(33, 32))}, RangeError, "try 34x32"),
-        ("a.mp4", {"scene": Scene(background=((0, 0, 0, 0), (0, 0, 0, 0)))}, RangeError, "no transparency"),
+        ("a.mp4", {"scene": Scene(size_px=(16384, 16384))}, RangeError, "try --size 5970x5970, or write PNG"),
+        ("a.webp", {"scene": Scene(size_px=(16384, 1000))}, RangeError, "try --size 16383x999"),
+        ("a.mp4", {"scene": Scene(background=((0, 0, 0, 0), (0, 0, 0, 0)))}, RangeError, "write .webm, .mov"),
     ],
 )
 def test_what_cannot_be_written_is_refused_before_work_begins(
