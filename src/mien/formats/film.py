@@ -190,10 +190,9 @@ class _ContainerFilm:
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         frame = self._make(pixels)
-        frame.pts = self._ticks(start)
+        frame.pts, frame.time_base = self._ticks(start), self._tick
         frame.duration = self._ticks(start + count) - frame.pts
-        frame.time_base = self._tick
-        self._container.mux(self._stream.encode(self._palette.reduce(frame) if self._palette else frame))
+        self._container.mux(self._stream.encode(frame))
         if self._voice:
             self._voice.play_until((start + count) / self._rate)
 
@@ -205,7 +204,11 @@ class _ContainerFilm:
     def _make(self, pixels: Pixels) -> VideoFrame:
         """The frame of a picture; that of the one before again, if that is what is shown."""
         if self._last is None or self._last[0] is not pixels:
-            self._last = pixels, make_frame(pixels, "rgba" if self._palette else self._layout)
+            if self._palette:
+                frame = self._palette.reduce(make_frame(pixels, "rgba"))
+            else:
+                frame = make_frame(pixels, self._layout)
+            self._last = pixels, frame
         return self._last[1]
 
     def _ticks(self, number: int) -> int:
@@ -213,7 +216,7 @@ class _ContainerFilm:
 
 
 def _add_pictures(container: Any, codec: Codec, rate: Fraction, size_px: tuple[int, int], transparent: bool) -> Any:
-    options = {**codec.options, **(codec.clear_options if transparent else {}), "flags": "+bitexact"}
+    options = {**codec.options, **(codec.clear_options if transparent else {}), "flags": "+bitexact+frame_duration"}
     stream = container.add_stream(codec.picture, rate=rate, options=options)
     stream.width, stream.height = ((side + side % 2 if codec.even else side) for side in size_px)
     stream.pix_fmt = codec.clear_pixels if transparent else codec.pixels

@@ -39,4 +39,5 @@ class Palette:
     def reduce(self, frame: VideoFrame) -> VideoFrame:
         """The frame in 256 colours, half-transparent pixels made one or the other."""
         self._source.push(frame)
-        return self._result.pull()
+        reduced: VideoFrame = self._result.pull()
+        return reduced
