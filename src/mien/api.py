@@ -8,13 +8,15 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .core import Face, Pose, Scene, UnknownNameError
+from .core import Drawing, Face, Mesh, MienError, Pose, Scene, UnknownNameError, fill_rows, subdivide
 from .formats.notes import notes
 from .formats.performances import default_threads
-from .timeline import Layer, Timeline, Track
+from .timeline import Layer, Rate, Timeline, Track
 
 if TYPE_CHECKING:
+    from .formats.obj import Model
     from .formats.picture import Picture
+    from .formats.svg import VectorPicture
     from .perform import Performance, Style
     from .speech import Speech, Voice
     from .speech.speaking import Report
@@ -119,10 +121,85 @@ def draw(
     from .formats.picture import Picture
     from .render import draw as draw_pixels
 
-    face = load_face(face) if isinstance(face, str) else face
-    pose = pose if isinstance(pose, Pose) else make_pose(face, pose)
+    face, pose = _resolve(face, pose)
     pixels = draw_pixels(face, pose, scene or default_scene(), threads=threads or default_threads())
     return Picture(pixels, notes(face.name))
+
+
+def draw_paths(
+    face: Face | str = DEFAULT_FACE,
+    pose: Pose | Mapping[str, float] | None = None,
+    scene: Scene | None = None,
+) -> VectorPicture:
+    """A picture made of filled paths, one shade a polygon: written as SVG it is sharp at every size.
+
+    Args:
+        face: a face or its address.
+        pose: a pose of it, or the values that differ from neutral.
+        scene: as for ``draw``; None is a slight three-quarter view with one step of subdivision.
+    """
+    from .formats.svg import VectorPicture
+    from .render.painting import paint_mesh
+
+    face, pose = _resolve(face, pose)
+    scene = scene or replace(default_scene(), subdivide=1)
+    shape = _posed(face, pose, scene)
+    if isinstance(shape, Drawing):
+        return VectorPicture(shape, scene, notes=notes(face.name))
+    return VectorPicture(paint_mesh(shape, scene), scene, polygons=True, notes=notes(face.name))
+
+
+def make_model(
+    face: Face | str = DEFAULT_FACE,
+    pose: Pose | Mapping[str, float] | None = None,
+    scene: Scene | None = None,
+) -> Model:
+    """The posed mesh of a face, to be written as OBJ.
+
+    Args:
+        face: a face or its address.
+        pose: a pose of it, or the values that differ from neutral.
+        scene: says how often the mesh is subdivided, and where the eyes look; None as for ``draw``.
+
+    Raises:
+        MienError: the face is a flat drawing and has no mesh.
+    """
+    from .formats.obj import Model
+
+    face, pose = _resolve(face, pose)
+    shape = _posed(face, pose, scene or default_scene())
+    if isinstance(shape, Drawing):
+        raise MienError(f"{face.name}: is a flat drawing and has no mesh — write it as .svg")
+    return Model(shape, notes(face.name))
+
+
+def sheet(
+    face: Face | str = DEFAULT_FACE,
+    kind: str = "presets",
+    pose: Pose | Mapping[str, float] | None = None,
+    scene: Scene | None = None,
+    *,
+    threads: int | None = None,
+    report: Callable[[int, int], None] | None = None,
+) -> Picture:
+    """A page of labelled pictures of a face, made from its own tables.
+
+    Args:
+        face: a face or its address.
+        kind: ``presets``, ``parameters`` at the ends of their ranges, or ``views``.
+        pose: what every picture starts from, or the values that differ from neutral.
+        scene: light, shading, size of one picture, where it is seen from; None is a near view, 256 pixels wide.
+        threads: None is one a core; the picture does not depend on it.
+        report: told (done, total) pictures.
+
+    Raises:
+        UnknownNameError: there is no such kind.
+        MienError: there is nothing to show, or the page would be too large.
+    """
+    from .formats.face_sheets import make_sheet
+
+    face, pose = _resolve(face, pose)
+    return make_sheet(face, kind, pose, scene, threads=threads or default_threads(), report=report)
 
 
 def speak(text: str, voice: str | None = None, *, report: Report | None = None) -> Speech:
@@ -192,7 +269,7 @@ def play(
     path: Path | str,
     face: Face | str | None = None,
     *,
-    fps: float | None = None,
+    fps: Rate | None = None,
     report: Callable[[str], None] | None = None,
 ) -> Performance:
     """The performance in a ``.json``, ``.csv`` or ``.spec`` file, with its sound if it has one.
@@ -216,6 +293,17 @@ def play(
     if report and face is None and not stored.same_table:
         report(f"{path}: made with another version of {stored.face.name!r}; frames may differ from those of then")
     return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene())
+
+
+def _resolve(face: Face | str, pose: Pose | Mapping[str, float] | None) -> tuple[Face, Pose]:
+    face = load_face(face) if isinstance(face, str) else face
+    return face, pose if isinstance(pose, Pose) else make_pose(face, pose)
+
+
+def _posed(face: Face, pose: Pose, scene: Scene) -> Mesh | Drawing:
+    """What a scene shows of a face: rows at rest filled from the scene, subdivided as it asks."""
+    shape = (face if scene.subdivide else face.unsubdivided).shape(fill_rows(face, pose, scene))
+    return shape if isinstance(shape, Drawing) else subdivide(shape, scene.subdivide)
 
 
 def with_settings(timeline: Timeline, pose: Pose) -> Timeline:

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+FILM_HELP = "Film: .mp4 .webm .mov .gif .apng .webp; frames: a folder or f_%04d.png; .wav .srt .vtt; data: .json .csv"
+
 FaceName = Annotated[str, typer.Argument(metavar="FACE", help="A face: a name from 'mien faces', or a face file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
@@ -24,21 +26,18 @@ Presets = Annotated[
 ]
 
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]
-Film = Annotated[
-    Path,
-    typer.Option(
-        "-o", "--out", metavar="OUT", help="Film .mp4; frames: a folder or f_%04d.png; .wav; data: .json .csv"
-    ),
+Film = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]
+OptionalFilm = Annotated[Path | None, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]
+Subtitles = Annotated[
+    str | None, typer.Option("--subtitles", metavar="FILE|burn", help="Beside it as .srt or .vtt, or in the picture.")
 ]
-OptionalFilm = Annotated[
-    Path | None,
-    typer.Option(
-        "-o", "--out", metavar="OUT", help="Film .mp4; frames: a folder or f_%04d.png; .wav; data: .json .csv"
-    ),
-]
+Variable = Annotated[bool, typer.Option("--variable", help="Equal pictures of a film become one that stays longer.")]
 
 Size = Annotated[str | None, typer.Option("--size", metavar="WxH", help="Pixels: 1024 or 1280x720.  [default: 1024]")]
-Fps = Annotated[float | None, typer.Option("--fps", metavar="N", help="Frames a second, 1 to 240.  [default: 24]")]
+Fps = Annotated[
+    str | None,
+    typer.Option("--fps", metavar="N", help="Frames a second, 1 to 240; also 29.97, 30000/1001.  [default: 24]"),
+]
 View = Annotated[
     str | None,
     typer.Option("--view", metavar="NAME", help="front, three-quarter or side.  [default: three-quarter]"),
@@ -53,6 +52,10 @@ Shading = Annotated[
 ]
 Subdivide = Annotated[
     int | None, typer.Option("--subdivide", metavar="N", help="Rounding of the skin: 0, 1 or 2.  [default: 2]")
+]
+Sheet = Annotated[
+    str | None,
+    typer.Option("--sheet", metavar="KIND", help="A labelled page instead: presets, parameters or views of the face."),
 ]
 Background = Annotated[
     str | None,

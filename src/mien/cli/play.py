@@ -32,6 +32,8 @@ def play(
     subdivide: options.Subdivide = None,
     background: options.Background = None,
     threads: options.Threads = None,
+    subtitles: options.Subtitles = None,
+    variable: options.Variable = False,
     quiet: options.Quiet = False,
 ) -> None:
     """Play a timeline on a face, list its commands, plot its curves.
@@ -47,7 +49,7 @@ def play(
     from mien.core import MienError
     from mien.formats import DEFAULT_FPS, check_performance
     from mien.formats.atomic import check_file
-    from mien.formats.rates import check_rate
+    from mien.formats.performances import BURN
     from mien.formats.table import find_format
 
     from . import settings
@@ -57,16 +59,17 @@ def play(
 
     if out is None and plot is None and not commands:
         raise MienError(f"{timeline}: nothing to do with it — give -o FILE, --commands or --plot FILE")
-    if fps is not None:
-        check_rate(fps)
+    wanted = None if fps is None else settings.parse_rate(fps)
     settings.check_threads(threads)
     if plot is not None:
         find_format(plot, "plot")
         check_file(plot)
     if out is not None:
-        check_performance(out)
+        check_performance(out, subtitles=None if subtitles == BURN else subtitles, variable=variable)
+    elif subtitles is not None:
+        raise MienError(f"--subtitles {subtitles}: belong to a film or to pictures — name one with -o")
     stages = Stages(quiet)
-    performance = api.play(timeline, face, fps=fps, report=stages.say)
+    performance = api.play(timeline, face, fps=wanted, report=stages.say)
     scene = settings.make_scene(
         performance.scene,
         size=size,
@@ -80,9 +83,9 @@ def play(
     )
     pose = api.make_pose(performance.face, settings.parse_values(values), presets=preset or ())
     performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))
-    rate = fps or performance.timeline.fps or DEFAULT_FPS
+    rate = wanted or performance.timeline.fps or DEFAULT_FPS
     if out is not None:
-        check_performance(out, fps=rate, scene=scene)
+        kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
 
     if commands:
         from mien.timeline import command_list, format_commands
@@ -91,7 +94,7 @@ def play(
     if plot is not None:
         from mien.formats.plot import plot_timeline
 
-        plot_timeline(performance.timeline, performance.face.parameters, plot, fps=rate)
+        plot_timeline(performance.timeline, performance.face.parameters, plot, fps=float(rate))
         stages.say(str(plot))
     if out is not None:
-        write(performance, out, rate, threads, stages)
+        write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)

@@ -42,6 +42,8 @@ def say(
     subdivide: options.Subdivide = None,
     background: options.Background = None,
     threads: options.Threads = None,
+    subtitles: options.Subtitles = None,
+    variable: options.Variable = False,
     quiet: options.Quiet = False,
 ) -> None:
     """Let a face say something, as a film with its voice.
@@ -50,17 +52,20 @@ def say(
     mien say "How happy is the little stone" -o stone.mp4
     mien say @poem.txt --face head:ada --view front --fps 30 -o poem.mp4
     mien say "Good night." --preset sleepy --style blinks=2,head=0.5 -o night.mp4
+    mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
+    mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     echo Hello | mien say - --emotion smile -o hello.json
     """
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
-    from mien.perform import check_emotion, parse_style
+    from mien.formats.performances import HEARD
+    from mien.perform import check_emotion, listen, parse_style
 
     from . import settings
     from .stages import Stages
     from .writing import write
 
-    rate = DEFAULT_FPS if fps is None else fps
+    rate = DEFAULT_FPS if fps is None else settings.parse_rate(fps)
     scene = settings.make_scene(
         api.default_scene(),
         size=size,
@@ -74,7 +79,7 @@ def say(
     )
     settings.check_threads(threads)
     # Everything that can be wrong is looked at before the first long step.
-    check_performance(out, fps=rate, scene=scene)
+    kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     subject = api.load_face(face)
     pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
     api.find_voice(voice)
@@ -88,6 +93,9 @@ def say(
         speech = api.speak(words, voice, report=lambda done, total, doing: report(done, total))
     if speech.skipped:
         stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
-    with stages.stage("moving the face"):
-        performance = api.perform(speech, subject, seed=seed, style=manner, emotion=emotion, pose=pose, scene=scene)
-    write(performance, out, rate, threads, stages)
+    if kind in HEARD:
+        performance = listen(speech, subject)
+    else:
+        with stages.stage("moving the face"):
+            performance = api.perform(speech, subject, seed=seed, style=manner, emotion=emotion, pose=pose, scene=scene)
+    write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)

@@ -5,10 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 from mien.core import MienError, RangeError, Scene, UnknownNameError, exact
 from mien.core.scene import VIEWS, Rgba, Vector
+from mien.formats.rates import check_rate
+from mien.timeline import Rate
 
 THREADS_HIGH = 256
 
@@ -34,6 +37,20 @@ def parse_size(text: str) -> tuple[int, int]:
     if len(sides) not in (1, 2) or not all(side.strip().isdecimal() for side in sides):
         raise MienError(f"--size {text}: want one side or two, as in --size 1024 or --size 1280x720")
     return int(sides[0]), int(sides[-1])
+
+
+def parse_rate(text: str) -> Rate:
+    """Frames a second, from ``24``, ``23.976`` or ``30000/1001``.
+
+    Raises:
+        MienError: it is none of these, or not from 1 to 240.
+    """
+    try:
+        rate = Fraction(text) if "/" in text else _number(text, f"--fps {text}")
+    except (ValueError, ZeroDivisionError):
+        raise MienError(f"--fps {text}: want a number or a fraction, as in --fps 29.97 or --fps 30000/1001") from None
+    check_rate(rate)
+    return rate
 
 
 def parse_vector(text: str, option: str) -> Vector:

@@ -9,23 +9,36 @@ from .stages import Stages, format_time
 
 if TYPE_CHECKING:
     from mien.formats.performances import Performance
+    from mien.timeline import Rate
 
 
-def write(performance: Performance, out: Path, fps: float, threads: int | None, stages: Stages) -> None:
-    """Writes a performance and tells of it."""
-    from mien.formats import check_performance, write_performance
+def write(
+    performance: Performance,
+    out: Path,
+    kind: str,
+    stages: Stages,
+    *,
+    fps: Rate,
+    threads: int | None,
+    subtitles: str | None,
+    variable: bool,
+) -> None:
+    """Writes a performance in a format that ``check_performance`` named, and tells of it."""
+    from mien.formats import write_performance
+    from mien.formats.codecs import find_codec
+    from mien.formats.performances import BURN, DRAWN, HEARD
 
-    kind = check_performance(out, fps=fps, scene=performance.scene)
-    if kind in ("film", "folder", "series"):
+    if kind in DRAWN:
         prepare(stages)
-        with stages.progress("drawing") as report:
-            write_performance(performance, out, fps=fps, threads=threads, report=report)
-    else:
-        with stages.stage("writing"):
-            write_performance(performance, out, fps=fps, threads=threads)
-    length_s = performance.timeline.length_s
-    rate = "" if kind == "wav" else f" at {fps:g} frames a second"
-    stages.say(f"{out}: {length_s:.1f} s{rate}; done in {format_time(stages.elapsed_s)}")
+    with stages.progress("drawing") if kind in DRAWN else stages.stage("writing") as report:
+        write_performance(
+            performance, out, fps=fps, threads=threads, subtitles=subtitles, variable=variable, report=report
+        )
+    if subtitles is not None and subtitles != BURN:
+        stages.say(subtitles)
+    rate = "" if kind in HEARD else f" at {float(fps):g} frames a second"
+    silent = ", without sound" if kind == "film" and performance.sound and not find_codec(out).sound else ""
+    stages.say(f"{out}: {performance.timeline.length_s:.1f} s{rate}{silent}; done in {format_time(stages.elapsed_s)}")
 
 
 def prepare(stages: Stages) -> None:

@@ -20,7 +20,6 @@ from .subtitles import GUIDE, Subtitle
 
 if TYPE_CHECKING:
     from PIL import Image
-    from PIL.ImageFont import FreeTypeFont
 
 Pixels = NDArray[np.uint8]
 
@@ -31,7 +30,7 @@ LINE_SHARE = 0.08
 """Height of a line, as a share of the picture's, at most. Source: BBC, Subtitle Guidelines, presentation."""
 
 LINE_EM, CHARACTER_EM = 1.25, 0.5
-"""From line to line, and of a usual character of English text, in sizes of the letters."""
+"""From line to line, and of a character of English text with room to spare, in sizes of the letters."""
 
 EDGE_EM, BOLD_EM = 0.09, 0.012
 """Of the dark edge around the letters, and what they are thickened by, for they are drawn as light ones."""
@@ -151,9 +150,9 @@ def _draw(lines: Sequence[str], size_px: tuple[int, int]) -> _Strip:
     width, height = size_px
     texts = [" ".join("".join(_standin(character) or "" for character in line).split()) for line in lines]
     size = _size(size_px)
-    safe = width * (1.0 - 2.0 * SAFE)
-    widest = max(_font(size).getlength(text) for text in texts)
-    size *= min(1.0, safe / max(widest, 1.0))
+    # Widths are whole pixels a letter, so they do not shrink quite as the size does.
+    while (share := width * (1.0 - 2.0 * SAFE) / _widest(texts, size)) < 1.0:
+        size *= min(share, 0.99)
     font, pitch, edge = _font(size), round(size * LINE_EM), max(1, round(size * EDGE_EM))
     bottom = round(height * (1.0 - SAFE))
     top = max(0, bottom - pitch * len(texts) - edge)
@@ -161,13 +160,14 @@ def _draw(lines: Sequence[str], size_px: tuple[int, int]) -> _Strip:
     pen = ImageDraw.Draw(image)
     for stroke, color in ((float(edge), DARK), (size * BOLD_EM, WHITE)):
         for number, text in enumerate(reversed(texts)):
-            place = (width // 2, bottom - top - pitch * number - _descent(font))
+            place = (width // 2, bottom - top - pitch * number - font.getmetrics()[1])
             pen.text(place, text, fill=color, font=font, anchor="ms", stroke_width=stroke, stroke_fill=color)
     return _Strip(0, top, image)
 
 
-def _descent(font: FreeTypeFont) -> int:
-    return font.getmetrics()[1]
+def _widest(texts: Sequence[str], size: float) -> float:
+    """Width of the widest line with its edge, pixels."""
+    return max(float(_font(size).getlength(text)) for text in texts) + 2.0 * EDGE_EM * size
 
 
 @cache

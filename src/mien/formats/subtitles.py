@@ -92,10 +92,16 @@ JOINTS = _words(
 )
 """Words that begin a phrase. English, as the built-in voice."""
 
-LEADERS = JOINTS | _words(
-    "a an the my your his her its our their this these those no not i you he she it we they "
-    "am is are was were be been have has had do does did will would shall should can could may might must don't "
-    "mr mrs ms dr prof st mt gen sen rep capt lt col sgt rev"
+TITLES = _words("mr mrs ms dr prof st mt gen sen rep capt lt col sgt rev")
+"""Words whose full stop ends no sentence."""
+
+LEADERS = (
+    JOINTS
+    | TITLES
+    | _words(
+        "a an the my your his her its our their this these those no not i you he she it we they "
+        "am is are was were be been have has had do does did will would shall should can could may might must don't"
+    )
 )
 """Words that lead to the next one: articles, pronouns, auxiliaries, titles, and what begins a phrase."""
 
@@ -253,9 +259,10 @@ def _break_cost(one: _Piece, two: _Piece, guide: Guide) -> float:
     """Of a break between two pieces."""
     paused = two.start_s - one.end_s >= guide.pause_s
     last = one.text.rstrip(_CLOSERS)[-1:]
-    if last in _SENTENCE_MARKS and (paused or last != "."):
+    titled = last == "." and one.plain in TITLES
+    if last in _SENTENCE_MARKS and not titled and (paused or last != "."):
         return COSTS.sentence
-    if one.plain in LEADERS and not paused and last not in _CLAUSE_MARKS:
+    if titled or (one.plain in LEADERS and not paused and last not in _SENTENCE_MARKS + _CLAUSE_MARKS):
         return COSTS.leading
     if paused or last in _SENTENCE_MARKS + _CLAUSE_MARKS:
         return COSTS.clause

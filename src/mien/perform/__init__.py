@@ -1,6 +1,6 @@
 """Speech and the life around it as one timeline: what a face does while it says something."""
 
-from .performance import Performance, check_emotion, perform
+from .performance import Performance, check_emotion, listen, perform
 from .style import Style, parse_style
 
-__all__ = ["Performance", "Style", "check_emotion", "parse_style", "perform"]
+__all__ = ["Performance", "Style", "check_emotion", "listen", "parse_style", "perform"]

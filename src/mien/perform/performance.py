@@ -54,9 +54,11 @@ class Performance:
     scene: Scene = field(default_factory=Scene)
 
     def write(self, path: Path | str, **options: Any) -> None:
-        """Writes it; the suffix picks the format (``.mp4``, a folder of pictures, ``.wav``, ``.json``, ``.csv``).
+        """Writes it; the suffix picks the format: a film (``.mp4``, ``.webm``, ``.gif`` …), a folder of pictures,
+        ``.wav``, ``.srt``, ``.json``, ``.csv``.
 
-        Options are those of ``mien.formats.write_performance``: ``fps``, ``scene``, ``threads``, ``report``.
+        Options are those of ``mien.formats.write_performance``: ``fps``, ``scene``, ``threads``, ``subtitles`` (a file,
+        or ``"burn"``), ``variable``, ``report``.
         """
         from mien.formats import write_performance
 

@@ -23,18 +23,19 @@ NEAR = Fraction(1, 200)
 """How near to such a rate a number means it: 23.98, the coarsest of the usual ways to write one, is 0.004 off."""
 
 MOST_PARTS = 1001
+"""Of a second, in which frames are counted; films cannot count in arbitrarily many."""
 
 
 def exact_rate(fps: Rate) -> Fraction:
-    """Frames a second as a fraction: 23.976 is 24000/1001, 29.97 is 30000/1001; a fraction is itself.
+    """Frames a second as a fraction: 23.976 is 24000/1001, 29.97 is 30000/1001; a fraction of small numbers is itself.
 
     Raises:
         RangeError: it is not finite, or not above 1/1001.
     """
     if math.isfinite(fps):
         given = Fraction(fps)
-        near = [rate for rate in NTSC if abs(given - rate) <= NEAR]
-        rate = given if isinstance(fps, Fraction) else near[0] if near else given.limit_denominator(MOST_PARTS)
+        near = [] if isinstance(fps, Fraction) else [rate for rate in NTSC if abs(given - rate) <= NEAR]
+        rate = near[0] if near else given.limit_denominator(MOST_PARTS)
         if rate > 0:
             return rate
     raise RangeError(f"timeline: a rate of {fps} frames a second is not a finite number above 1/{MOST_PARTS}")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from mien.core import Material, Mesh, Parameter, ParameterTable, Pose, Preset, Scene, Sound, build_topology, color
+from mien.core import Cue, Material, Mesh, Parameter, ParameterTable, Pose, Preset, Scene, Sound, build_topology, color
 from mien.timeline import Layer, Timeline, Track
 
 TABLE = ParameterTable(
@@ -69,9 +69,22 @@ class SmallPerformance:
     scene: Scene = field(default_factory=lambda: Scene(size_px=(32, 16)))
 
 
-def opening_jaw(length_s: float = 1.0, sound: bool = True) -> SmallPerformance:
-    """The jaw opens from 0 to 20 degrees."""
-    track = Track.from_keys([0.0, length_s], [0.0, 20.0])
-    timeline = Timeline((Layer("speech", "replace", {"jaw.rotation": track}),), length_s, title="Ah", seed=3)
+def opening_jaw(
+    length_s: float = 1.0,
+    sound: bool = True,
+    *,
+    words: Sequence[str] = (),
+    still: bool = False,
+    size_px: tuple[int, int] = (32, 16),
+) -> SmallPerformance:
+    """The jaw opens from 0 to 20 degrees, or stays open; words are said at the beginning, a tenth of a second each."""
+    track = Track.from_keys([0.0, length_s], [20.0 if still else 0.0, 20.0])
+    timeline = Timeline(
+        (Layer("speech", "replace", {"jaw.rotation": track}),),
+        length_s,
+        words=tuple(Cue(0.1 * number, 0.1 * number + 0.1, word) for number, word in enumerate(words)),
+        title="Ah",
+        seed=3,
+    )
     noise = np.random.default_rng(1).integers(-9000, 9000, round(length_s * 24000), dtype=np.int16)
-    return SmallPerformance(timeline, sound=Sound(noise, 24000) if sound else None)
+    return SmallPerformance(timeline, sound=Sound(noise, 24000) if sound else None, scene=Scene(size_px=size_px))
