@@ -1,10 +1,14 @@
-"""What several tests need: every installed face, poses drawn from any table, how far a head's lips are apart."""
+"""What several tests need: faces, poses of any table, kernels as plain Python, how far a head's lips are apart."""
 
+from collections.abc import Callable
 from functools import cache
+from types import FunctionType
+from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
 
+from mien.compiling import Kernel
 from mien.core import Face, ParameterTable, Pose
 from mien.core.mesh import Points
 from mien.faces import face_names, load_face
@@ -18,6 +22,15 @@ FACE_NAMES = tuple(name for name, _ in face_names())
 def face(name: str) -> Face:
     """An installed face; loaded once a run."""
     return load_face(name)
+
+
+@cache
+def in_python(kernel: Kernel) -> Callable[..., Any]:
+    """A kernel, and those that it calls, as the plain Python that they are written in."""
+    function = kernel.function
+    named = {name: function.__globals__[name] for name in function.__code__.co_names if name in function.__globals__}
+    scope = {name: in_python(value) if isinstance(value, Kernel) else value for name, value in named.items()}
+    return FunctionType(function.__code__, scope)
 
 
 def poses(table: ParameterTable) -> st.SearchStrategy[Pose]:

@@ -26,7 +26,7 @@ class Kernel:
         self.function, self.signature = function, signature
         self.__name__, self.__doc__, self.__module__ = function.__name__, function.__doc__, function.__module__
 
-    def __call__(self, *arguments: Any) -> int:
+    def __call__(self, *arguments: Any) -> Any:
         """Run the machine code, beside other threads; what it gives back, or 0.
 
         Raises:

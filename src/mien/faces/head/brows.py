@@ -1,19 +1,21 @@
 """Eyebrows: interpolation between high and low arch, translation of the inner end; and the strips of hair."""
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
+from mien.compiling import kernel
+from mien.core.mesh import Ints
 
-from mien.core import Pose
-from mien.core.mesh import Ints, Points
-
-from .falloff import bell, own_side
+from .falloff import along, bell, own_side
 from .measured import Archive, Floats, Measured
+from .moves import Move
 from .rest import REST_ARCH
 from .units import PARKE_UNIT_M as UNIT
-from .vectors import unit
+from .vectors import bind, cross, unit
 
 HIGH = (("browOuterUp", 0.95), ("browInnerUp", 0.30))
 LOW = (("browOuterUp", -0.40),)
@@ -37,25 +39,23 @@ def brow_regions(measured: Measured) -> BrowRegions:
     return BrowRegions((left, right))
 
 
-def move_brows(points: Points, pose: Pose, regions: BrowRegions, measured: Measured) -> Points:
-    """Points (V, 3) m with arch and separation of the brows.
+def brow_moves(regions: BrowRegions, measured: Measured) -> list[Move]:
+    """Arch and separation of the brows.
 
     Two sets of points are interpolated, high arch at 0 and low at 1; the measured face lies between, at rest.
 
     Source: Parke 1974, section 3.2.
     """
-    out = points.copy()
+    out = []
     for number, (side, letter, sign) in enumerate((("left", "L", 1.0), ("right", "R", -1.0))):
-        arch = pose[f"eyebrow.arch.{side}"]
-        rows, amount = (
-            (HIGH, (REST_ARCH - arch) / REST_ARCH)
-            if arch < REST_ARCH
-            else (LOW, (arch - REST_ARCH) / (1.0 - REST_ARCH))
-        )
-        if amount:
-            for name, share in rows:
-                out += amount * share * measured.morphs[f"{name}_{letter}"]
-        out[:, 0] += sign * pose[f"eyebrow.separation.{side}"] * UNIT * regions.inner[number]
+        arch = f"eyebrow.arch.{side}"
+        for rows, span in ((HIGH, -REST_ARCH), (LOW, 1.0 - REST_ARCH)):
+            out += [
+                Move(arch, measured.morphs[f"{name}_{letter}"], share, REST_ARCH, span, one_way=True)
+                for name, share in rows
+            ]
+        outwards = along(0, regions.inner[number])
+        out.append(Move(f"eyebrow.separation.{side}", outwards, sign * UNIT))
     return out
 
 
@@ -83,18 +83,29 @@ def brow_strips(archive: Archive, lift_m: float) -> BrowStrips:
     )
 
 
-def bind(index: Ints, weight: Floats, values: Points) -> Points:
-    """(N, 3) sums of weight times value, in the order of the columns."""
-    out = np.zeros((len(index), values.shape[1]))
-    for column in range(index.shape[1]):
-        out += weight[:, column, None] * values[index[:, column]]
-    return out
+@kernel()
+def sum_normals(points, quads, vertices, starts, columns, normals):
+    """Fill the rows ``vertices`` of ``normals`` (V, 3): each the sum of its polygons' normals, twice their areas long.
+
+    The polygons of vertex n of the list are ``columns[starts[n]:starts[n + 1]]``.
+    """
+    for n in range(len(vertices)):
+        x, y, z = 0.0, 0.0, 0.0
+        for k in range(starts[n], starts[n + 1]):
+            a, b, c, d = quads[columns[k], 0], quads[columns[k], 1], quads[columns[k], 2], quads[columns[k], 3]
+            first = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+            second = points[d, 0] - points[b, 0], points[d, 1] - points[b, 1], points[d, 2] - points[b, 2]
+            nx, ny, nz = cross(first, second)
+            x, y, z = x + nx, y + ny, z + nz
+        vertex = vertices[n]
+        normals[vertex, 0], normals[vertex, 1], normals[vertex, 2] = x, y, z
 
 
-def place_brows(strips: BrowStrips, points: Points, normals: Points) -> Points:
-    """(2 B, 3) m, left strip then right, on posed skin."""
-    out = []
-    for index, weight in zip(strips.index, strips.weight, strict=True):
-        normal = bind(index, weight, normals)
-        out.append(bind(index, weight, points) + strips.offset[:, None] * unit(normal))
-    return np.concatenate(out)
+@kernel()
+def place_brows(index, weight, offset, skin, normals, out):
+    """Fill ``out`` (B, 3) m with a strip on posed skin (V, 3): on sums of its points, off it by ``offset`` (B,)."""
+    for n in range(len(offset)):
+        x, y, z = bind(index, weight, skin, n)
+        nx, ny, nz = bind(index, weight, normals, n)
+        nx, ny, nz = unit(nx, ny, nz)
+        out[n, 0], out[n, 1], out[n, 2] = x + offset[n] * nx, y + offset[n] * ny, z + offset[n] * nz

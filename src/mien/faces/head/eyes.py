@@ -4,21 +4,25 @@ Source: Parke 1974, section 3.1.1, figures 3.2 to 3.4 and Appendix A. His formul
 vectors here: the same directions, without arctangents whose average jumps where they wrap at +-pi.
 """
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from mien.compiling import kernel
 from mien.core import exact
-from mien.core.mesh import Ints, Points
+from mien.core.mesh import Ints
 
+from .angles import share, sin_cos
 from .measured import Floats
 from .units import DEG
-from .vectors import cross, dot, length
+from .vectors import cross, unit_or_ahead
 
-BACK_COS_SIN = ((-0.3420201433256687, 0.9396926207859084), (-0.6427876096865394, 0.766044443118978))
+BACK_COS_SIN = (-0.3420201433256687, 0.9396926207859084, -0.6427876096865394, 0.766044443118978)
 """Cosine and sine of 110 and 130 degrees: two rings behind his hemisphere, so that no gap shows beside the lids."""
 
 SPOT_SIDES = 6
@@ -38,68 +42,52 @@ CLASSIC, SMOOTH = 12, 24
 BANDS = ("iris", "fringe", "white", "white", "back", "back")
 
 
-@dataclass(frozen=True)
-class Eye:
-    """One eye in the head.
-
-    Attributes:
-        centre: (3,) m.
-        radius: m.
-        forward: (3,) unit vector, where it looks.
-        iris, pupil, spot: radii as shares of the eyeball's; fringe: as a share of the iris's.
-    """
-
-    centre: Floats
-    radius: float
-    forward: Floats
-    iris: float = 0.39
-    pupil: float = 0.156
-    fringe: float = 0.12
-    spot: float = 0.058
-
-
-def normalised(vector: Floats) -> Floats:
-    """A vector (3,) of length 1; straight ahead if it has no length."""
-    size = float(length(vector))
-    return vector / size if size > 1e-12 else np.array([0.0, 0.0, 1.0])
-
-
-def _aside_and_above(direction: Floats) -> tuple[Floats, Floats]:
-    """Unit vectors (3,) across a direction: level, towards the own left when it points ahead; and upwards."""
-    aside = normalised(np.array([direction[2], 0.0, -direction[0]]))
-    return aside, cross(direction, aside)
-
-
-def look_at(centre: Floats, target: Floats, turn_deg: float = 0.0, nod_deg: float = 0.0) -> Floats:
-    """Direction (3,) in which an eye looks to see a target, within what an eye can turn, then offset by angles.
+@kernel()
+def look_at(centre, target, turn_deg, nod_deg):
+    """Direction in which an eye looks to see a target, within what an eye can turn, then offset by angles.
 
     Source: Parke 1974, Appendix A (alpha and beta of each eye by itself; his beta is positive downwards).
     """
-    x, y, z = normalised(target - centre)
-    level = max(float(z), 1e-9)
-    x = min(max(float(x) / level, -MOST_SIDEWAYS), MOST_SIDEWAYS)
-    flat = float(np.sqrt(1.0 + x * x))
-    y = min(max(float(y) / level / flat, -MOST_UP), MOST_UP) * flat
-    if turn_deg or nod_deg:
-        turn, nod = turn_deg * DEG, nod_deg * DEG
-        sin_turn, cos_turn, sin_nod, cos_nod = (float(f) for a in (turn, nod) for f in exact.sin_cos(a))
-        ahead, aside = (cos_turn - x * sin_turn) / flat, (sin_turn + x * cos_turn) / flat
-        whole = float(np.sqrt(flat * flat + y * y))
-        level_part, up_part = flat / whole, y / whole
-        level_part, up_part = level_part * cos_nod - up_part * sin_nod, level_part * sin_nod + up_part * cos_nod
-        return np.array([aside * level_part, up_part, ahead * level_part])
-    return normalised(np.array([x, y, 1.0]))
+    x, y, z = unit_or_ahead(target[0] - centre[0], target[1] - centre[1], target[2] - centre[2])
+    level = max(z, 1e-9)
+    x = min(max(x / level, -MOST_SIDEWAYS), MOST_SIDEWAYS)
+    flat = np.sqrt(1.0 + x * x)
+    y = min(max(y / level / flat, -MOST_UP), MOST_UP) * flat
+    if turn_deg == 0.0 and nod_deg == 0.0:
+        return unit_or_ahead(x, y, 1.0)
+    sin_turn, cos_turn = sin_cos(turn_deg * DEG)
+    sin_nod, cos_nod = sin_cos(nod_deg * DEG)
+    ahead, aside = (cos_turn - x * sin_turn) / flat, (sin_turn + x * cos_turn) / flat
+    whole = np.sqrt(flat * flat + y * y)
+    level, up = flat / whole, y / whole
+    level, up = level * cos_nod - up * sin_nod, level * sin_nod + up * cos_nod
+    return aside * level, up, ahead * level
 
 
-def lens_centre(iris: float) -> float:
+@kernel()
+def aside_and_above(direction):
+    """Unit vectors across a direction: level, towards the own left when it points ahead; and upwards."""
+    aside = unit_or_ahead(direction[2], 0.0, -direction[0])
+    return aside, cross(direction, aside)
+
+
+@kernel()
+def lens_centre(iris):
     """Distance of the lens sphere's centre before the eye's, in eyeball radii; 0 or less for a very large iris.
 
     Source: Parke 1974, Appendix A: 1 = R_i^2 + (R_i + L_c)^2.
     """
-    return float(np.sqrt(1.0 - iris * iris)) - iris
+    return np.sqrt(1.0 - iris * iris) - iris
 
 
-def spot_direction(eye: Eye, light: Floats, viewer: Floats) -> tuple[Floats, float]:
+@kernel()
+def seen_iris(iris):
+    """The iris without the ends of its range, at which rings would have no width."""
+    return min(max(iris, 0.02), 0.95)
+
+
+@kernel()
+def spot_direction(centre, radius, forward, iris, light, viewer):
     """Unit vector from the eye's centre to the reflection spot, and how much of the spot is on the lens (0..1).
 
     The spot lies on the lens where its normal halves the angle between light and viewer. The lens meets the ball
@@ -109,26 +97,25 @@ def spot_direction(eye: Eye, light: Floats, viewer: Floats) -> tuple[Floats, flo
     Source: Parke 1974, Appendix A, with the directions averaged instead of the angles. His lens centre is in the eye's
     coordinates, light and viewer are in the head's: the eye's place is added before they are compared.
     """
-    iris = _iris(eye)
-    bulge = lens_centre(iris)
-    centre, radius = (bulge, iris * float(np.sqrt(2.0))) if bulge > 0.0 else (0.0, 1.0)
-    lens = eye.centre + eye.radius * centre * eye.forward
-    to_light = normalised(light - lens)
-    half = normalised(to_light + normalised(viewer - lens))
+    iris = seen_iris(iris)
+    bulge, lens_radius = lens_centre(iris), iris * np.sqrt(2.0)
+    if not bulge > 0.0:
+        bulge, lens_radius = 0.0, 1.0
+    out = radius * bulge
+    x, y, z = centre[0] + out * forward[0], centre[1] + out * forward[1], centre[2] + out * forward[2]
+    lx, ly, lz = unit_or_ahead(light[0] - x, light[1] - y, light[2] - z)
+    vx, vy, vz = unit_or_ahead(viewer[0] - x, viewer[1] - y, viewer[2] - z)
+    hx, hy, hz = unit_or_ahead(lx + vx, ly + vy, lz + vz)
     # The spot fades where the lens ends (45 degrees from its axis) and where the light only grazes it.
-    on_lens, lit = (float(dot(half, eye.forward)) - 0.62) / 0.12, (float(dot(half, to_light)) - 0.15) / 0.15
-    shown = min(max(min(on_lens, lit), 0.0), 1.0)
-    return normalised(centre * eye.forward + radius * half), shown
-
-
-def _iris(eye: Eye) -> float:
-    """The iris without the ends of its range, at which rings would have no width."""
-    return min(max(eye.iris, 0.02), 0.95)
+    on_lens = ((hx * forward[0] + hy * forward[1] + hz * forward[2]) - 0.62) / 0.12
+    lit = ((hx * lx + hy * ly + hz * lz) - 0.15) / 0.15
+    x, y, z = bulge * forward[0] + lens_radius * hx, bulge * forward[1] + lens_radius * hy, lens_radius * hz
+    return unit_or_ahead(x, y, bulge * forward[2] + z), share(min(on_lens, lit))
 
 
 @lru_cache(maxsize=4)
 def eye_polygons(sides: int) -> tuple[Ints, Ints]:
-    """(1, sides) the pupil and (K, 4) the rings of one eye; vertices as ``eye_points`` lists them."""
+    """(1, sides) the pupil and (K, 4) the rings of one eye; vertices as ``place_eye`` lists them."""
     pupil = np.arange(sides)[None]
     around = np.arange(sides)
     quads = []
@@ -147,62 +134,99 @@ def _steps(band: str, sides: int) -> int:
     return 1 if sides == CLASSIC else {"iris": 4, "fringe": 1, "white": 2, "back": 1}[band]
 
 
-def ring_radii(eye: Eye) -> tuple[tuple[float, float], ...]:
-    """(cosine, sine) of the polar angle of each ring, from the pupil's edge to the back.
+def band_steps(sides: int) -> Ints:
+    """(6,) rings less one of each band."""
+    return np.array([_steps(band, sides) for band in BANDS], dtype=np.int64)
+
+
+@kernel()
+def fill_radii(iris, pupil, fringe, radii):
+    """Fill ``radii`` (7, 2) with cosine and sine of the polar angle of each ring, from the pupil's edge to the back.
 
     Source: Parke 1974, figure 3.2: x_i = sqrt(R_e^2 - R_i^2), which is printed with a plus, but the rings lie on the
     ball; sizes are shares of R_e. The white's middle ring halves the angle that is left beside the fringe.
     """
-    iris = _iris(eye)
-    pupil = min(max(eye.pupil, 0.01), 0.96 * iris)
-    fringe = min(iris * (1.0 + max(eye.fringe, 0.01)), 0.97)
-    front = tuple((float(np.sqrt(1.0 - r * r)), r) for r in (pupil, iris, fringe))
+    iris = seen_iris(iris)
+    fringe = min(iris * (1.0 + max(fringe, 0.01)), 0.97)
+    radii[0, 1], radii[1, 1], radii[2, 1] = min(max(pupil, 0.01), 0.96 * iris), iris, fringe
+    for ring in range(3):
+        radii[ring, 0] = np.sqrt(1.0 - radii[ring, 1] * radii[ring, 1])
     # Polar angle (phi + pi/2)/2 by the half-angle formulas, with cos(phi + pi/2) = -sin(phi).
-    middle = (float(np.sqrt(0.5 * (1.0 - fringe))), float(np.sqrt(0.5 * (1.0 + fringe))))
-    return (*front, middle, (0.0, 1.0), *BACK_COS_SIN)
+    radii[3, 0], radii[3, 1] = np.sqrt(0.5 * (1.0 - fringe)), np.sqrt(0.5 * (1.0 + fringe))
+    radii[4, 0], radii[4, 1] = 0.0, 1.0
+    for ring in range(2):
+        radii[5 + ring, 0], radii[5 + ring, 1] = BACK_COS_SIN[2 * ring], BACK_COS_SIN[2 * ring + 1]
 
 
-def eye_points(eye: Eye, sides: int) -> tuple[Points, Points]:
-    """(N, 3) m points and (N, 3) normals of one eyeball: pupil first, then each band's rings with its own vertices."""
-    forward = eye.forward
-    aside, above = _aside_and_above(forward)
-    x, y = _circle(sides)
-    spokes = x[:, None] * aside + y[:, None] * above
-    radii = ring_radii(eye)
-    rings = [radii[0]]
-    for number, band in enumerate(BANDS):
-        steps = _steps(band, sides)
-        (c0, s0), (c1, s1) = radii[number], radii[number + 1]
-        for k in range(steps + 1):
-            t = k / steps
-            c, s = c0 + t * (c1 - c0), s0 + t * (s1 - s0)
-            size = float(np.sqrt(c * c + s * s))
-            rings.append((c / size, s / size))
-    normals = np.concatenate([c * forward + s * spokes for c, s in rings])
-    return eye.centre + eye.radius * normals, normals
+@kernel()
+def place_eye(centre, radius, forward, radii, steps, circle, points, normals):
+    """Fill ``points`` (N, 3) m and ``normals`` (N, 3) of a ball: the pupil, then the rings of each band.
+
+    Args:
+        centre: of the ball, m.
+        radius: of the ball, m.
+        forward: unit vector, where it looks.
+        radii: of ``fill_radii``.
+        steps: (6,) rings less one of each band.
+        circle: (sides, 2) of ``circle``.
+        points: filled.
+        normals: filled.
+    """
+    aside, above = aside_and_above(forward)
+    first, sides = 0, len(circle)
+    for band in range(-1, len(steps)):
+        inner, rings = max(band, 0), 0 if band < 0 else steps[band]
+        for ring in range(rings + 1):
+            c, s = radii[inner, 0], radii[inner, 1]
+            if band >= 0:
+                t = ring / rings
+                c, s = c + t * (radii[band + 1, 0] - c), s + t * (radii[band + 1, 1] - s)
+                size = np.sqrt(c * c + s * s)
+                c, s = c / size, s / size
+            for corner in range(sides):
+                for axis in range(3):
+                    spoke = circle[corner, 0] * aside[axis] + circle[corner, 1] * above[axis]
+                    normal = c * forward[axis] + s * spoke
+                    normals[first + corner, axis] = normal
+                    points[first + corner, axis] = centre[axis] + radius * normal
+            first += sides
 
 
-def spot_points(eye: Eye, light: Floats, viewer: Floats) -> Points:
-    """(6, 3) m, the reflection spot: a hexagon on the eye where the light is mirrored to the viewer."""
-    direction, shown = spot_direction(eye, light, viewer)
-    aside, above = _aside_and_above(direction)
-    size = max(eye.spot * shown, 1e-3)
-    x, y = _circle(SPOT_SIDES)
-    flat = direction + size * (x[:, None] * aside + y[:, None] * above)
-    return eye.centre + eye.radius * SPOT_LIFT * flat
+@kernel()
+def place_spot(centre, radius, forward, iris, spot, light, viewer, hexagon, points):
+    """Fill ``points`` (6, 3) m: a hexagon on the eye where the light is mirrored to the viewer.
+
+    Args:
+        centre: of the ball, m.
+        radius: of the ball, m.
+        forward: unit vector, where it looks.
+        iris: its size, a share of the ball's radius.
+        spot: its size, a share of the ball's radius.
+        light: its place as the head has it before it turns, m.
+        viewer: likewise.
+        hexagon: (6, 2) of ``circle``.
+        points: filled.
+    """
+    direction, shown = spot_direction(centre, radius, forward, iris, light, viewer)
+    size = max(spot * shown, 1e-3)
+    aside, above = aside_and_above(direction)
+    for corner in range(len(hexagon)):
+        for axis in range(3):
+            spoke = hexagon[corner, 0] * aside[axis] + hexagon[corner, 1] * above[axis]
+            points[corner, axis] = centre[axis] + radius * SPOT_LIFT * (direction[axis] + size * spoke)
 
 
 @lru_cache(maxsize=8)
-def _circle(sides: int) -> tuple[Floats, Floats]:
-    """Cosines and sines of a regular polygon's corners, anticlockwise, half a step off the horizontal."""
+def circle(sides: int) -> Floats:
+    """(sides, 2) cosines and sines of a regular polygon's corners, anticlockwise, half a step off the horizontal."""
     angle = (np.arange(sides) + 0.5) * (360.0 / sides) * DEG
     sine, cosine = exact.sin_cos(angle)
-    return cosine, sine
+    return np.stack([cosine, sine], axis=1)
 
 
 @lru_cache(maxsize=8)
 def eye_shades(sides: int) -> tuple[tuple[str, Floats], ...]:
-    """Runs of vertices as ``eye_points`` lists them: the colour's name and a factor (N, 3) on it."""
+    """Runs of vertices as ``place_eye`` lists them: the colour's name and a factor (N, 3) on it."""
     spokes = np.arange(sides)
     streak = (
         np.array([1.0, 1.16, 0.9, 1.08, 0.94, 1.2, 0.88, 1.04])[(spokes * 5) % 8]

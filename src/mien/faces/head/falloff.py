@@ -27,3 +27,10 @@ def bell(points: Points, centre: tuple[float, float], radii: tuple[float, float]
 def own_side(points: Points, side: int, ramp_m: float) -> Floats:
     """(V,) 0 on the midline and beyond, 1 from ``ramp_m`` on the left (side 1) or right (side -1)."""
     return exact.smoothstep(points[:, 0] * side / ramp_m)
+
+
+def along(axis: int, weight: Floats) -> Points:
+    """(V, 3) vectors along an axis (0 x, 1 y, 2 z), as long as the weights (V,)."""
+    out = np.zeros((len(weight), 3))
+    out[:, axis] = weight
+    return out

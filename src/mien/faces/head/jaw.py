@@ -1,18 +1,29 @@
 """The jaw: rotation about its axis with a share for every point."""
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
 import numpy as np
 
-from mien.core import exact
-from mien.core.mesh import Points
+from mien.compiling import kernel
 
-from .measured import Floats, Measured
+from .angles import sin_cos
+from .measured import Floats
 from .units import DEG
 
 
-def rotate_jaw(points: Points, angle_deg: float, axis: Floats, share: Floats | float = 1.0) -> Points:
-    """Points (V, 3) m with the jaw swung open by an angle.
+@kernel()
+def swing(y, z, axis, sine, cosine):
+    """A point's y and z turned about the jaw's axis."""
+    y, z = y - axis[0], z - axis[1]
+    return axis[0] + y * cosine - z * sine, axis[1] + y * sine + z * cosine
+
+
+@kernel()
+def rotate_jaw(points, angle_deg, axis, share):
+    """Swing points (V, 3) m open by an angle.
 
     Args:
         points: head frame.
@@ -22,20 +33,52 @@ def rotate_jaw(points: Points, angle_deg: float, axis: Floats, share: Floats | f
 
     Source: Parke 1974, section 3.3.
     """
-    if not angle_deg:
-        return points
-    angle = (angle_deg * DEG) * np.asarray(share, dtype=np.float64)
-    sine, cosine = exact.sin_cos(angle)
-    y, z = points[:, 1] - axis[0], points[:, 2] - axis[1]
-    return np.stack([points[:, 0], axis[0] + y * cosine - z * sine, axis[1] + y * sine + z * cosine], axis=1)
+    if angle_deg == 0.0:
+        return
+    last, sine, cosine = 0.0, 0.0, 1.0
+    for v in range(len(points)):
+        if share[v] != last:
+            last = share[v]
+            sine, cosine = sin_cos((angle_deg * DEG) * last)
+        points[v, 1], points[v, 2] = swing(points[v, 1], points[v, 2], axis, sine, cosine)
 
 
-def open_jaw(points: Points, angle_deg: float, axis: Floats, open_angle_deg: float, measured: Measured) -> Points:
-    """Skin with the jaw open: the rotation, then what it misses of the measured open mouth (throat, corners)."""
-    if not angle_deg:
-        return points
-    turned = rotate_jaw(points, angle_deg, axis, measured.jaw_share)
-    return turned + (angle_deg / open_angle_deg) * measured.jaw_residual
+@kernel()
+def open_jaw(points, angle_deg, axis, share, open_angle_deg, residual):
+    """Open the jaw of the skin (V, 3) m: rotation, then what it misses of the measured open mouth (throat, corners).
+
+    ``residual`` (V, 3) m is what is missed at ``open_angle_deg``.
+    """
+    if angle_deg == 0.0:
+        return
+    rotate_jaw(points, angle_deg, axis, share)
+    opened = angle_deg / open_angle_deg
+    for v in range(len(points)):
+        for axis_number in range(3):
+            points[v, axis_number] += opened * residual[v, axis_number]
+
+
+@kernel()
+def carry_with_jaw(points, carried, angle_deg, axis, shift):
+    """Turn the points (N, 3) m that are ``carried`` (N,) with the jaw, and shift them with the chin."""
+    sine, cosine = sin_cos(angle_deg * DEG)
+    for n in range(len(points)):
+        if carried[n]:
+            if angle_deg != 0.0:
+                points[n, 1], points[n, 2] = swing(points[n, 1], points[n, 2], axis, sine, cosine)
+            for k in range(3):
+                points[n, k] += shift[k]
+
+
+@kernel()
+def chin_shift(forward, side, chin):
+    """How far the chin is shifted: forward, and to the own left (-1..1).
+
+    ``chin`` (3, 3) m are its measured moves to the left, to the right, and forward.
+    """
+    x, y, z = forward * chin[2, 0], forward * chin[2, 1], forward * chin[2, 2]
+    way, row = (side, 0) if side > 0.0 else (-side, 1)
+    return x + way * chin[row, 0], y + way * chin[row, 1], z + way * chin[row, 2]
 
 
 def parke_shares(share: Floats) -> Floats:

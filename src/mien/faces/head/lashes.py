@@ -1,17 +1,22 @@
 """Lashes, and the pink corner of the eye that fills what lids and ball leave open."""
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from mien.core.mesh import Ints, Points
+from mien.compiling import kernel
+from mien.core.mesh import Ints
 
-from .brows import bind
-from .eyes import Eye
 from .measured import Archive, Floats
-from .vectors import cross, unit
+from .vectors import bind, cross, unit
+
+LINE_LIFT_M = 0.00012
+"""How far the dark line at the margin of a lid stands off the skin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,39 +47,69 @@ def lashes(archive: Archive) -> Lashes:
     )
 
 
-def lash_points(lashes: Lashes, skin: Points, eye: Eye, side: str) -> Points:
-    """(N, 3) m of one eye's lashes on posed skin: they stand off the ball, upwards and outwards."""
-    number = 0 if side == "left" else 1
-    reach = lashes.reach[number]
-    root = bind(lashes.index[number], lashes.weight[number], skin)
-    radial = unit(root - eye.centre)
-    up = -radial * radial[:, 1:2]
-    up[:, 1] += 1.0
-    up = unit(up)
-    aside = cross(up, radial)
-    sign = 1.0 if number == 0 else -1.0
-    direction = unit(radial + up * reach[:, 1:2] + sign * aside * reach[:, 2:3])
-    return np.where(reach[:, 3:] > 0.0, root + direction * reach[:, :1], root + radial * 0.00012)
+@kernel()
+def place_lashes(index, weight, reach, skin, centre, sign, out):
+    """Fill ``out`` (N, 3) m with one eye's lashes on posed skin (V, 3): they stand off the ball, upwards and outwards.
+
+    ``index``, ``weight`` and ``reach`` are those of one side of ``Lashes``; ``sign`` is 1 for the left eye, -1 for the
+    right one.
+    """
+    for n in range(len(reach)):
+        x, y, z = bind(index, weight, skin, n)
+        rx, ry, rz = unit(x - centre[0], y - centre[1], z - centre[2])
+        if reach[n, 3] > 0.0:
+            up = unit(-rx * ry, -ry * ry + 1.0, -rz * ry)
+            ax, ay, az = cross(up, (rx, ry, rz))
+            high, wide = reach[n, 1], reach[n, 2]
+            dx = rx + up[0] * high + sign * ax * wide
+            dy = ry + up[1] * high + sign * ay * wide
+            dz = rz + up[2] * high + sign * az * wide
+            dx, dy, dz = unit(dx, dy, dz)
+            out[n, 0], out[n, 1], out[n, 2] = x + dx * reach[n, 0], y + dy * reach[n, 0], z + dz * reach[n, 0]
+        else:
+            out[n, 0], out[n, 1], out[n, 2] = x + rx * LINE_LIFT_M, y + ry * LINE_LIFT_M, z + rz * LINE_LIFT_M
 
 
+CARUNCLE_CORNERS = ("e0_0", "e0_1", "e0_11", "ei_1", "ei_11")
 CARUNCLE_QUADS = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 5, 6]])
 CARUNCLE_MIRROR = (0, 3, 6, 1, 4, 5, 2)
 """Vertex that each becomes in the mirror: upper and lower change places, so that the polygons still face outwards."""
 
 
-def caruncle(skin: Points, eye: Eye, side: str, archive: Archive) -> Points:
-    """(7, 3) m, three polygons between the inner corner of the lids and the ball."""
+def caruncle_corners(archive: Archive) -> Ints:
+    """(2, 5) vertices of the skin that hold it, left and right: the corner, two above it and two below."""
+    left = np.array([archive.vertex[name] for name in CARUNCLE_CORNERS], dtype=np.int64)
+    return np.stack([left, archive.mirror[left]])
 
-    def vertex(name: str) -> Points:
-        number = archive.vertex[name]
-        return skin[number if side == "left" else int(archive.mirror[number])]
 
-    centre, radius = eye.centre, eye.radius
-    corner = centre + (vertex("e0_0") - centre) * 0.985
-    above, below = (centre + (vertex(name) - centre) * 0.99 for name in ("ei_1", "ei_11"))
-    middle = unit((above + below) * 0.5 - centre)
-    ball = centre + middle * (radius - 0.0005)
-    upper, lower = (centre + (vertex(name) * 0.4 + vertex("e0_0") * 0.6 - centre) * 0.985 for name in ("e0_1", "e0_11"))
-    bulge = (corner + upper + lower + ball) * 0.25 + np.array([0.0, 0.0, 0.0005])
-    points = np.stack([corner, upper, above, lower, bulge, ball, below])
-    return points if side == "left" else points[list(CARUNCLE_MIRROR)]
+@kernel()
+def place_caruncle(skin, corners, centre, radius, mirrored, out):
+    """Fill ``out`` (7, 3) m, three polygons between the inner corner of the lids and the ball.
+
+    Args:
+        skin: (V, 3) m, posed.
+        corners: (5,) of ``caruncle_corners``.
+        centre: of the ball, m.
+        radius: of the ball, m.
+        mirrored: whether it is the right eye's.
+        out: filled.
+    """
+    e, near_above, near_below, far_above, far_below = corners[0], corners[1], corners[2], corners[3], corners[4]
+    upper, lower = (3, 1) if mirrored else (1, 3)
+    above, below = (6, 2) if mirrored else (2, 6)
+    bulge, ball = 4, 5
+    for axis in range(3):
+        c = centre[axis]
+        out[0, axis] = c + (skin[e, axis] - c) * 0.985
+        out[above, axis] = c + (skin[far_above, axis] - c) * 0.99
+        out[below, axis] = c + (skin[far_below, axis] - c) * 0.99
+        out[upper, axis] = c + (skin[near_above, axis] * 0.4 + skin[e, axis] * 0.6 - c) * 0.985
+        out[lower, axis] = c + (skin[near_below, axis] * 0.4 + skin[e, axis] * 0.6 - c) * 0.985
+    mx = (out[above, 0] + out[below, 0]) * 0.5 - centre[0]
+    my = (out[above, 1] + out[below, 1]) * 0.5 - centre[1]
+    mz = (out[above, 2] + out[below, 2]) * 0.5 - centre[2]
+    middle = unit(mx, my, mz)
+    for axis in range(3):
+        out[ball, axis] = centre[axis] + middle[axis] * (radius - 0.0005)
+        total = out[0, axis] + out[upper, axis] + out[lower, axis] + out[ball, axis]
+        out[bulge, axis] = total * 0.25 + (0.0005 if axis == 2 else 0.0)

@@ -5,18 +5,23 @@ around the mouth from the middle of the upper lip (0) over the corner (5) to the
 the inside out they are mi, m0 (where the lips meet), mh, m1 (border of the red), mb, m2.
 """
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from mien.core import Pose
+from mien.compiling import kernel
 from mien.core.mesh import Ints, Points
 
 from .falloff import bell, ellipse, own_side
 from .measured import Archive, Floats, Measured
+from .moves import Move
 from .units import PARKE_UNIT_M as UNIT
 
 CENTRE = (0.0, -0.067)
@@ -55,23 +60,19 @@ UPPER_PART = 0.35
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
-    """Vertices of all rings at two stations that meet when the lips close.
+class Contacts:
+    """Vertices of all rings at pairs of stations that meet when the lips close.
 
     Attributes:
-        upper, lower: (R,) vertex numbers, the ring where the lips meet first.
-        share: (R,) share of the gap's closing.
-        upper_part: share of the gap that the upper lip closes; the lower one does the rest.
-        rest_gap: (3,) m from the upper to the lower lip at rest.
-        overlap_m: how far they pass one another over an open jaw.
+        numbers: (C, 2, R) vertices above and below, the ring where the lips meet first.
+        shares: (R,) share of the gap's closing.
+        gaps: (C, 5) m from the upper to the lower lip at rest; how far (m) they pass one another over an open jaw; and
+            the share of the gap that the upper lip closes: the lower one does the rest.
     """
 
-    upper: Ints
-    lower: Ints
-    share: Floats
-    upper_part: float
-    rest_gap: Floats
-    overlap_m: float
+    numbers: Ints
+    shares: Floats
+    gaps: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,21 @@ class MouthRegions:
     corner_lips: tuple[Floats, Floats]
     upper: Floats
     tuck: Floats
-    contacts: tuple[Contact, ...]
+    contacts: Contacts
+
+    @cached_property
+    def rows(self) -> Ints:
+        """(R,) vertices that any of them moves."""
+        return np.flatnonzero(np.stack([*self._moving, self.tuck]).any(axis=0))
+
+    @cached_property
+    def moving(self) -> Floats:
+        """(R, 7) the weights of ``move_lips`` at these vertices."""
+        return np.stack(self._moving, axis=1)[self.rows]
+
+    @property
+    def _moving(self) -> tuple[Floats, ...]:
+        return self.around, self.lips, self.upper, *self.corner, *self.corner_lips
 
 
 def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
@@ -134,77 +149,115 @@ def _by_ring(
     return weight
 
 
-def _contacts(archive: Archive, points: Points) -> tuple[Contact, ...]:
-    share = np.array(list(CONTACT_RINGS.values()))
-    out = []
+def _contacts(archive: Archive, points: Points) -> Contacts:
+    numbers, gaps = [], []
     for side in (0, 1):
         for up, low, overlap_m in CONTACT_STATIONS:
             if up == 0 and side == 1:
                 continue  # the midline, which belongs to both sides
-            upper, lower = (np.array([_vertex(archive, r, s, side) for r in CONTACT_RINGS]) for s in (up, low))
+            upper, lower = ([_vertex(archive, ring, s, side) for ring in CONTACT_RINGS] for s in (up, low))
             # The lower corner station serves two stations above; the second meets it where it lies.
             upper_part = UPPER_PART if up != 4 else 1.0
-            out.append(Contact(upper, lower, share, upper_part, points[lower[0]] - points[upper[0]], overlap_m))
-    return tuple(out)
+            numbers.append((upper, lower))
+            gaps.append((*(points[lower[0]] - points[upper[0]]), overlap_m, upper_part))
+    return Contacts(np.array(numbers), np.array(list(CONTACT_RINGS.values())), np.array(gaps))
 
 
-def move_mouth(points: Points, pose: Pose, regions: MouthRegions, measured: Measured) -> Points:
-    """Points (V, 3) m with expression, width, offset, corners and upper lip; before the jaw turns."""
-    out = points.copy()
-    for side, letter in (("left", "L"), ("right", "R")):
-        smile = 1.0 - pose[f"mouth.expression.{side}"]
-        if smile:
-            for name, share in SMILE:
-                out += smile * share * measured.morphs[f"{name}_{letter}"]
-    width = pose["mouth.width"] - 1.0
-    if width:
-        x = out[:, 0]
-        wide = x * (1.0 + width * regions.around)
-        out[:, 2] -= ARCH_CURVE * (wide * wide - x * x) * regions.around
-        out[:, 0] = wide
-    out[:, 2] += pose["mouth.offset"] * UNIT * regions.lips
-    out[:, 1] += pose["mouth.upper_lip"] * UNIT * regions.upper
-    for number, (side, sign) in enumerate((("left", 1.0), ("right", -1.0))):
-        corner = regions.corner[number]
-        out[:, 0] += sign * pose[f"mouth.corner.side.{side}"] * UNIT * corner
-        out[:, 1] += pose[f"mouth.corner.up.{side}"] * UNIT * corner
-        out[:, 2] += pose[f"mouth.corner.forward.{side}"] * UNIT * corner
-        out[:, 1] += 0.5 * pose[f"mouth.corner.width.{side}"] * UNIT * regions.corner_lips[number]
-    return out
+def smile_moves(measured: Measured) -> list[Move]:
+    """Parke's interpolation of the mouth between two expressions, each half by itself."""
+    return [
+        Move(f"mouth.expression.{side}", measured.morphs[f"{name}_{letter}"], share, rest=1.0, span=-1.0)
+        for side, letter in (("left", "L"), ("right", "R"))
+        for name, share in SMILE
+    ]
 
 
-def tuck_lip(points: Points, before_jaw: Points, pose: Pose, regions: MouthRegions) -> Points:
-    """Points with the lower lip brought under the upper front teeth, wherever the jaw is (f, v).
+@kernel()
+def move_lips(points, rows, regions, width, offset, upper_lip, corners):
+    """Scale and translate the lips of the skin (V, 3) m, before the jaw turns.
+
+    Args:
+        points: changed.
+        rows: (R,) vertices of the mouth.
+        regions: (R, 7) their weights: width, offset, upper lip, left and right corner, red of either.
+        width: factor, 1 at rest.
+        offset: forward, off the teeth, in Parke's units like all that follow.
+        upper_lip: up.
+        corners: (8,) left and right: outwards, up, forward, thickness.
+    """
+    for n in range(len(rows)):
+        v = rows[n]
+        x, y, z = points[v, 0], points[v, 1], points[v, 2]
+        around = regions[n, 0]
+        wide = x * (1.0 + (width - 1.0) * around)
+        z -= ARCH_CURVE * (wide * wide - x * x) * around
+        z += offset * UNIT * regions[n, 1]
+        y += upper_lip * UNIT * regions[n, 2]
+        x = wide
+        for side in range(2):
+            sign, corner = 1.0 - 2.0 * side, regions[n, 3 + side]
+            x += sign * corners[side] * UNIT * corner
+            y += corners[2 + side] * UNIT * corner
+            z += corners[4 + side] * UNIT * corner
+            y += 0.5 * corners[6 + side] * UNIT * regions[n, 5 + side]
+        points[v, 0], points[v, 1], points[v, 2] = x, y, z
+
+
+@kernel()
+def tuck_lip(points, before_jaw, rows, share, tuck):
+    """Bring the lower lip of the skin (V, 3) m under the upper front teeth, wherever the jaw is (f, v).
+
+    Args:
+        points: changed.
+        before_jaw: (V, 3) m.
+        rows: (R,) vertices of the mouth.
+        share: (R,) of the way that each goes.
+        tuck: -20 is a full one.
 
     Source: Parke 1974, section 3.3; he translates the lip, we first undo the jaw's share of it, so that a full
     tuck meets the teeth at any rotation.
     """
-    amount = pose["mouth.tuck"] / -20.0
-    if not amount:
-        return points
-    goal = before_jaw + np.array(TUCK_SHIFT_M)
-    return points + (amount * regions.tuck)[:, None] * (goal - points)
+    amount = tuck / -20.0
+    for n in range(len(rows)):
+        v, part = rows[n], amount * share[n]
+        if part != 0.0:
+            for axis in range(3):
+                goal = before_jaw[v, axis] + TUCK_SHIFT_M[axis]
+                points[v, axis] += part * (goal - points[v, axis])
 
 
-def close_lips(points: Points, pose: Pose, jaw_opening: float, regions: MouthRegions, measured: Measured) -> Points:
-    """Points with the lips brought together: the measured bridge over an open jaw, then contact of what is left.
+@kernel()
+def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, moves):
+    """Bring the lips of the skin together: the measured bridge over an open jaw, then contact of what is left.
 
     Args:
-        points: (V, 3) m, after the jaw.
-        pose: has ``mouth.closure``.
+        points: (V, 3) m, after the jaw; changed.
+        closure: 1 is shut.
         jaw_opening: the jaw's angle as a share of the measured open mouth.
-        regions: of this position set.
-        measured: for the morph ``mouthClose``, which only makes sense together with the jaw.
+        bridge: (V, 3) m, the measured expression ``mouthClose``, which only makes sense together with the jaw.
+        numbers: of ``Contacts``.
+        shares: of ``Contacts``.
+        gaps: of ``Contacts``.
+        moves: (V, 3) filled with what contact adds.
     """
-    amount = pose["mouth.closure"]
-    if not amount:
-        return points
-    out = points + (amount * jaw_opening) * measured.morphs["mouthClose"]
-    moves = np.zeros_like(out)
+    if closure == 0.0:
+        return
+    bridged = closure * jaw_opening
+    for v in range(len(points)):
+        for axis in range(3):
+            points[v, axis] += bridged * bridge[v, axis]
+            moves[v, axis] = 0.0
     pressed = min(jaw_opening / OVERLAP_FROM, 1.0)
-    for contact in regions.contacts:
-        gap = out[contact.lower[0]] - out[contact.upper[0]] - contact.rest_gap
-        gap[1] -= pressed * contact.overlap_m
-        moves[contact.upper] += (amount * contact.upper_part) * contact.share[:, None] * gap
-        moves[contact.lower] -= (amount * (1.0 - contact.upper_part)) * contact.share[:, None] * gap
-    return out + moves
+    for c in range(len(gaps)):
+        upper, lower = numbers[c, 0, 0], numbers[c, 1, 0]
+        upwards, downwards = closure * (1.0 - gaps[c, 4]), closure * gaps[c, 4]
+        for axis in range(3):
+            gap = points[lower, axis] - points[upper, axis] - gaps[c, axis]
+            if axis == 1:
+                gap -= pressed * gaps[c, 3]
+            for ring in range(numbers.shape[2]):
+                moves[numbers[c, 0, ring], axis] += downwards * shares[ring] * gap
+                moves[numbers[c, 1, ring], axis] -= upwards * shares[ring] * gap
+    for v in range(len(points)):
+        for axis in range(3):
+            points[v, axis] += moves[v, axis]

@@ -9,10 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from mien.core import Pose
 from mien.core.mesh import Points
 
+from .moves import Move
 from .table import face_rows
+
+SIDEWAYS = (("jaw.side", "jawLeft", "jawRight"), ("mouth.side", "mouthLeft", "mouthRight"))
+"""Parameters between two mirrored expressions; positive is the own left."""
 
 
 @cache
@@ -27,18 +30,9 @@ def muscles() -> tuple[tuple[str, str], ...]:
     return tuple(out)
 
 
-def contract_muscles(points: Points, pose: Pose, morphs: Mapping[str, Points]) -> Points:
-    """Points (V, 3) m with every active expression added, in table order."""
-    out = points.copy()
-    for parameter, morph in muscles():
-        amount = pose[parameter]
-        if amount:
-            out += amount * morphs[morph]
+def muscle_moves(morphs: Mapping[str, Points]) -> list[Move]:
+    """Every expression in table order, then what goes to either side."""
+    out = [Move(parameter, morphs[morph]) for parameter, morph in muscles()]
+    for parameter, left, right in SIDEWAYS:
+        out += [Move(parameter, morphs[left], one_way=True), Move(parameter, morphs[right], span=-1.0, one_way=True)]
     return out
-
-
-def add_sideways(points: Points, amount: float, left: Points, right: Points) -> Points:
-    """Points moved ``amount`` (-1..1) of the way of one of two mirrored deltas; positive is the own left."""
-    if not amount:
-        return points
-    return points + (amount * left if amount > 0.0 else -amount * right)

@@ -1,16 +1,18 @@
 """The head pivots on the neck: a rotation whose angle fades from the skull to the collar."""
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
-import numpy as np
-
-from mien.core import Pose, exact
+from mien.compiling import kernel
+from mien.core import exact
 from mien.core.mesh import Points
 
+from .angles import turn
 from .measured import Floats
-from .units import DEG
 
-PIVOT = np.array([0.0, -0.085, -0.022])
+PIVOT = (0.0, -0.085, -0.022)
 BASE_Y_M, BASE_SLOPE = -0.163, -0.19
 """The neck ends on the plane y = -0.163 - 0.19 z, where the collar sits."""
 
@@ -23,56 +25,59 @@ def neck_share(points: Points) -> Floats:
     return exact.smoothstep(height / RIGID_ABOVE_M)
 
 
-def head_angles(pose: Pose) -> tuple[float, float, float]:
-    """Turn to the own left, nod upwards, tilt to the own left; radians."""
-    return pose["head.turn"] * DEG, pose["head.nod"] * DEG, pose["head.tilt"] * DEG
+@kernel()
+def turn_point(x, y, z, turned, nodded, tilted):
+    """A point about the neck's pivot tilted, nodded, then turned by angles in radians."""
+    x, y = turn(x, y, -tilted)
+    y, z = turn(y, z, -nodded)
+    z, x = turn(z, x, turned)
+    return x, y, z
 
 
-def turn_head(points: Points, angles: tuple[float, float, float], share: Floats) -> Points:
-    """Points (V, 3) m tilted, nodded, then turned about the neck's pivot, each by its share (V,) of the angles."""
-    if not any(angles):
-        return points
-    out = np.where((share >= 1.0)[:, None], turn_direction(points - PIVOT, angles) + PIVOT, points)
-    neck = np.flatnonzero((share > 0.0) & (share < 1.0))
-    turn, nod, tilt = (angle * share[neck] for angle in angles)
-    x, y, z = (points[neck] - PIVOT).T
-    x, y = _rotate(x, y, -tilt)
-    y, z = _rotate(y, z, -nod)
-    z, x = _rotate(z, x, turn)
-    out[neck] = np.stack([x, y, z], axis=1) + PIVOT
-    return out
+@kernel()
+def turn_back(place, turned, nodded, tilted):
+    """A place in the room, m, as the turned head sees it: the inverse of ``turn_head``."""
+    if turned == 0.0 and nodded == 0.0 and tilted == 0.0:
+        return place[0], place[1], place[2]
+    x, y, z = place[0] - PIVOT[0], place[1] - PIVOT[1], place[2] - PIVOT[2]
+    z, x = turn(z, x, -turned)
+    y, z = turn(y, z, nodded)
+    x, y = turn(x, y, tilted)
+    return x + PIVOT[0], y + PIVOT[1], z + PIVOT[2]
 
 
-def turn_back(point: Points, angles: tuple[float, float, float]) -> Points:
-    """(N, 3) m, points of the room as the turned head sees them: the inverse of ``turn_head``."""
-    if not any(angles):
-        return point
-    turn, nod, tilt = (np.asarray(angle) for angle in angles)
-    x, y, z = (point - PIVOT).T
-    z, x = _rotate(z, x, -turn)
-    y, z = _rotate(y, z, nod)
-    x, y = _rotate(x, y, tilt)
-    return np.stack([x, y, z], axis=1) + PIVOT
+@kernel()
+def turn_axes(turned, nodded, tilted):
+    """Where the three steps take the axes x, y and z."""
+    x = turn_point(1.0, 0.0, 0.0, turned, nodded, tilted)
+    y = turn_point(0.0, 1.0, 0.0, turned, nodded, tilted)
+    z = turn_point(0.0, 0.0, 1.0, turned, nodded, tilted)
+    return x, y, z
 
 
-def turn_direction(directions: Points, angles: tuple[float, float, float]) -> Points:
-    """(N, 3) directions turned with the head."""
-    if not any(angles):
-        return directions
-    turn, nod, tilt = (np.asarray(angle) for angle in angles)
-    # Columns of the rotation are where its three steps take the axes.
-    axes = np.eye(3)
-    x, y, z = axes
-    x, y = _rotate(x, y, -tilt)
-    y, z = _rotate(y, z, -nod)
-    z, x = _rotate(z, x, turn)
-    rows = (x, y, z)
-    return np.stack(
-        [row[0] * directions[:, 0] + row[1] * directions[:, 1] + row[2] * directions[:, 2] for row in rows], axis=1
-    )
+@kernel()
+def turn_directions(directions, axes):
+    """Turn directions (N, 3) with the head; ``axes`` are those of ``turn_axes``."""
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axes
+    for n in range(len(directions)):
+        x, y, z = directions[n, 0], directions[n, 1], directions[n, 2]
+        directions[n, 0] = ax * x + bx * y + cx * z
+        directions[n, 1] = ay * x + by * y + cy * z
+        directions[n, 2] = az * x + bz * y + cz * z
 
 
-def _rotate(a: Floats, b: Floats, angle: Floats) -> tuple[Floats, Floats]:
-    """Coordinates turned from axis a towards axis b."""
-    sine, cosine = exact.sin_cos(angle)
-    return a * cosine - b * sine, a * sine + b * cosine
+@kernel()
+def turn_head(points, share, axes, turned, nodded, tilted):
+    """Tilt, nod, then turn points (V, 3) m about the neck's pivot, each by its share (V,) of the angles."""
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axes
+    for v in range(len(points)):
+        if share[v] == 0.0:
+            continue
+        x, y, z = points[v, 0] - PIVOT[0], points[v, 1] - PIVOT[1], points[v, 2] - PIVOT[2]
+        if share[v] >= 1.0:
+            points[v, 0] = ax * x + bx * y + cx * z + PIVOT[0]
+            points[v, 1] = ay * x + by * y + cy * z + PIVOT[1]
+            points[v, 2] = az * x + bz * y + cz * z + PIVOT[2]
+        else:
+            x, y, z = turn_point(x, y, z, turned * share[v], nodded * share[v], tilted * share[v])
+            points[v, 0], points[v, 1], points[v, 2] = x + PIVOT[0], y + PIVOT[1], z + PIVOT[2]

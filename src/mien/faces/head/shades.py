@@ -1,13 +1,17 @@
 """Colours of every vertex from the colour rows: soft regions, baked ambient shade, depth of the mouth."""
 
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
 from __future__ import annotations
 
 import numpy as np
 
+from mien.compiling import kernel
 from mien.core import Pose
-from mien.core.exact import smoothstep
 from mien.core.mesh import Ints, Points
 
+from .angles import share, soft_step
 from .lashes import Lashes
 from .measured import Archive, Floats
 
@@ -86,22 +90,28 @@ def lash_color(pose: Pose, lashes: Lashes) -> Floats:
     """(N, 3) of one eye's lashes: much darker than the brows; the lower ones are fine, so the skin shows through."""
     hair = color_of(pose, "eyebrow") * 0.12
     out = np.tile(hair, (len(lashes.index[0]), 1))
-    out[np.unique(lashes.quads[lashes.lower])] = hair + 0.62 * color_of(pose, "shade")
+    out[lashes.quads[lashes.lower].ravel()] = hair + 0.62 * color_of(pose, "shade")
     return out
 
 
 def collar_color(pose: Pose, count: int, band: Ints) -> Floats:
     """(N, 3) of ``count`` vertices of the garment; the polygons (F, 4) of the neckband are darker."""
     out = np.tile(color_of(pose, "garment"), (count, 1))
-    out[np.unique(band)] *= 0.82
+    dark = np.zeros(count, dtype=bool)
+    dark[band.ravel()] = True
+    out[dark] *= 0.82
     return out
 
 
-def lid_shadow(points: Points, centre: Floats) -> Floats:
-    """(N, 1) factor: the upper lid's shadow on the ball, and a little at its sides."""
-    up = np.clip((points[:, 1] - centre[1] - 0.0008) / 0.0036, 0.0, 1.0)
-    side = np.clip((np.abs(points[:, 0] - centre[0]) - 0.006) / 0.005, 0.0, 1.0)
-    return ((1.0 - 0.55 * up) * (1.0 - 0.22 * side))[:, None]
+@kernel()
+def darken_eye(colors, points, centre):
+    """Darken colours (N, 3) of a ball whose points (N, 3) m are: the upper lid's shadow, and a little at its sides."""
+    for n in range(len(points)):
+        up = share((points[n, 1] - centre[1] - 0.0008) / 0.0036)
+        side = share((abs(points[n, 0] - centre[0]) - 0.006) / 0.005)
+        light = (1.0 - 0.55 * up) * (1.0 - 0.22 * side)
+        for channel in range(3):
+            colors[n, channel] *= light
 
 
 LIP_SHADOW = 0.42
@@ -109,10 +119,14 @@ LIP_SHADOW_M = 0.0065
 """How dark the upper lip's shadow is, and how far it falls: a lip 8 mm before the teeth, light from 35 degrees up."""
 
 
-def lip_shadow(points: Points, lip_height: float) -> Floats:
-    """(N, 1) factor: the upper lip's shadow on what lies in the mouth; ``lip_height`` is its edge, m."""
-    below = smoothstep((lip_height - points[:, 1] - 0.0015) / LIP_SHADOW_M)
-    return (1.0 - LIP_SHADOW * (1.0 - below))[:, None]
+@kernel()
+def darken_mouth(colors, points, lip_height):
+    """Darken colours (N, 3) of what lies in the mouth by the upper lip's shadow; ``lip_height`` is its edge, m."""
+    for n in range(len(points)):
+        below = soft_step((lip_height - points[n, 1] - 0.0015) / LIP_SHADOW_M)
+        light = 1.0 - LIP_SHADOW * (1.0 - below)
+        for channel in range(3):
+            colors[n, channel] *= light
 
 
 def palette_key(pose: Pose) -> bytes:

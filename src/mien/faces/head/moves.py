@@ -1,0 +1,92 @@
+"""What is added to the resting skin: constant moves, each as much as one parameter is away from its rest.
+
+Parke's interpolation between two sets of points is such a move: the difference of the sets, times a share.
+
+Source: Parke 1974, section 2.1.
+"""
+
+# Numba finds the types of arguments by itself, so that the kernels below name none.
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mien.compiling import kernel
+from mien.core import ParameterTable
+from mien.core.mesh import Ints, Points
+
+from .measured import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Move:
+    """One move of the skin.
+
+    Attributes:
+        parameter: what it follows.
+        delta: (V, 3) m.
+        share: of the delta that is added when the parameter is a span away from rest.
+        rest: value of the parameter that adds nothing.
+        span: negative where falling values add.
+        one_way: values on the other side of rest add nothing.
+    """
+
+    parameter: str
+    delta: Points
+    share: float = 1.0
+    rest: float = 0.0
+    span: float = 1.0
+    one_way: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Moves:
+    """Moves as arrays, in the order in which they are added.
+
+    Attributes:
+        columns: (M,) column of each move's parameter in the table.
+        rules: (M, 4) rest, span, share, and 1 where the move is one-way.
+        deltas: (M, 3 V) m.
+    """
+
+    columns: Ints
+    rules: Floats
+    deltas: Floats
+
+
+def moves_of(moves: Sequence[Move], table: ParameterTable) -> Moves:
+    """The moves with their parameters looked up."""
+    return Moves(
+        np.array([table.index[move.parameter] for move in moves], dtype=np.int64),
+        np.array([(move.rest, move.span, move.share, float(move.one_way)) for move in moves]),
+        np.stack([move.delta.ravel() for move in moves]),
+    )
+
+
+@kernel("f8[:,:], i8[:], f8[:,:], f8[:,:]")
+def weigh_moves(values, columns, rules, weights):
+    """Fill ``weights`` (N, M) with how much of each move is added in the poses ``values`` (N, P)."""
+    for frame in range(len(values)):
+        for k in range(len(columns)):
+            amount = (values[frame, columns[k]] - rules[k, 0]) / rules[k, 1]
+            if rules[k, 3] > 0.0:
+                amount = max(amount, 0.0)
+            weights[frame, k] = amount * rules[k, 2]
+
+
+@kernel("f8[:,:], f8[:,:], f8[:], f8[:,:]")
+def add_moves(weights, deltas, rest, skins):
+    """Fill ``skins`` (N, 3 V) m with the resting one (3 V,) and what the weights (N, M) add, move after move."""
+    for frame in range(len(weights)):
+        skin = skins[frame]
+        for i in range(len(rest)):
+            skin[i] = rest[i]
+        for k in range(len(deltas)):
+            weight, delta = weights[frame, k], deltas[k]
+            if weight != 0.0:
+                for i in range(len(rest)):
+                    skin[i] += weight * delta[i]
