@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 PLAY = [sys.executable, "-m", "mien", "play", "long.spec", "--size", "64", "--subdivide", "0", "--threads", "1"]
-LONG = "length 20000\njaw.rotation 0 10 0 8 cosine\n"
+LONG = "word 0 9 Hello\nlength 20000\njaw.rotation 0 10 0 8 cosine\n"
 SHORT = "length 12\njaw.rotation 0 10 0 8 cosine\n"
 
 
@@ -27,13 +27,13 @@ def wait_for_partial(folder: Path, process: subprocess.Popen[bytes], least_bytes
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize(("out", "old"), [("a.mp4", "a.mp4"), ("frames", "frames/frame_0000.png")])
+@pytest.mark.parametrize(("out", "old"), [("a.mp4", "a.mp4"), ("a.webm", "a.webm"), ("frames", "frames/frame_0000.png")])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_leaves_everything_as_it_was(tmp_path: Path, out: str, old: str, number: signal.Signals) -> None:
     (tmp_path / "long.spec").write_text(LONG)
     (tmp_path / old).parent.mkdir(exist_ok=True)
     (tmp_path / old).write_text("old")
-    process = subprocess.Popen([*PLAY, "-o", out], cwd=tmp_path, stderr=subprocess.PIPE)
+    process = subprocess.Popen([*PLAY, "-o", out, "--subtitles", "a.srt"], cwd=tmp_path, stderr=subprocess.PIPE)
     try:
         wait_for_partial(tmp_path, process, 1)
         assert process.poll() is None
@@ -48,7 +48,7 @@ def test_interrupting_leaves_everything_as_it_was(tmp_path: Path, out: str, old:
     assert (tmp_path / old).read_text() == "old"
 
 
-@pytest.mark.parametrize("out", ["a.mp4", "frames", "f_%02d.png", "a.csv", "a.json"])
+@pytest.mark.parametrize("out", ["a.mp4", "a.gif", "a.webp", "frames", "f_%02d.png", "a.csv", "a.json"])
 def test_a_full_disk_leaves_everything_as_it_was(tmp_path: Path, out: str) -> None:
     (tmp_path / "long.spec").write_text(SHORT)
     existing = {"frames": "frames/frame_0000.png", "f_%02d.png": "f_00.png"}.get(out, out)

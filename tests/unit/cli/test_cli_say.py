@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 import av
@@ -113,3 +114,63 @@ def test_nothing_but_what_cannot_be_spoken_is_a_mistake(tmp_path: Path, capfd: p
 def test_quiet_is_quiet(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     say("Go.", "-o", str(tmp_path / "a.json"))
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("name", ["a.wav", "a.srt", "a.vtt"])
+def test_what_is_heard_alone_moves_no_face(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.setattr("mien.api.perform", lambda *arguments, **more: pytest.fail("performed"))
+    assert (
+        main(["say", "Hello there, my baby.", "-o", str(tmp_path / name), "--subtitles", str(tmp_path / "b.srt")]) == 0
+    )
+    assert (tmp_path / "b.srt").read_text().endswith("\nHello there, my baby.\n\n")
+    assert sorted(item.name for item in tmp_path.iterdir()) == sorted([name, "b.srt"])
+
+
+def test_subtitles_come_in_the_picture_and_survive_in_a_timeline(tmp_path: Path) -> None:
+    size = ["--size", "190x130", "--subdivide", "0", "--fps", "5"]
+    assert main(["say", "Hi, you!", "--subtitles", str(tmp_path / "a.vtt"), "-o", str(tmp_path / "a.json"), "-q"]) == 0
+    for name, more in (("plain", []), ("burned", ["--subtitles", "burn"])):
+        assert main(["play", str(tmp_path / "a.json"), *size, *more, "-o", str(tmp_path / name), "-q"]) == 0
+    assert main(["play", str(tmp_path / "a.json"), "-o", str(tmp_path / "b.vtt"), "-q"]) == 0
+    assert (tmp_path / "a.vtt").read_bytes() == (tmp_path / "b.vtt").read_bytes()
+    with (
+        Image.open(tmp_path / "plain" / "frame_0002.png") as one,
+        Image.open(tmp_path / "burned" / "frame_0002.png") as two,
+    ):
+        plain, burned = np.asarray(one), np.asarray(two)
+    rows = np.flatnonzero((plain != burned).any(axis=(1, 2)))
+    assert 0.75 * 130 < rows.min() < rows.max() < 0.96 * 130
+
+
+@pytest.mark.parametrize("fps", ["23.976", "24000/1001"])
+def test_a_rate_of_television_is_exact(tmp_path: Path, fps: str) -> None:
+    out = tmp_path / "a.mp4"
+    assert main(["say", "Go.", "--fps", fps, "-o", str(out), "--size", "17x15", "--subdivide", "0", "-q"]) == 0
+    with av.open(str(out)) as film:
+        assert film.streams.video[0].average_rate == Fraction(24000, 1001)
+        times = [frame.pts * frame.time_base for frame in film.decode(video=0)]
+    assert times == [Fraction(1001 * frame, 24000) for frame in range(len(times))]
+
+
+def test_a_still_film_of_variable_rate_is_one_picture_for_all_its_time(tmp_path: Path) -> None:
+    (tmp_path / "a.spec").write_text("fps 30\nlength 90\njaw.rotation 30 30 0 8 linear\n")
+    out = tmp_path / "a.mp4"
+    size = ["--size", "32", "--subdivide", "0", "-q"]
+    assert main(["play", str(tmp_path / "a.spec"), "--variable", *size, "-o", str(out)]) == 0
+    with av.open(str(out)) as film:
+        packets = [(p.pts * p.time_base, p.duration * p.time_base) for p in film.demux(video=0) if p.pts is not None]
+    assert packets == [(0, 1), (1, 2)]
+
+
+def test_a_film_without_sound_says_so(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    size = ["--size", "16", "--subdivide", "0", "--fps", "2"]
+    assert main(["say", "Go.", *size, "-o", str(tmp_path / "a.gif")]) == 0
+    assert "without sound" in capfd.readouterr().err
+
+
+def test_the_seed_is_told_in_the_film(tmp_path: Path) -> None:
+    size = ["--size", "16", "--subdivide", "0", "--fps", "2", "-q"]
+    for name in ("a.mp4", "a.webm"):
+        assert main(["say", "Go.", *size, "--seed", "41", "-o", str(tmp_path / name)]) == 0
+        with av.open(str(tmp_path / name)) as film:
+            assert {key.lower(): value for key, value in film.metadata.items()}["seed"] == "41"
