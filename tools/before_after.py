@@ -19,6 +19,7 @@ import pack_head
 
 import mien
 from mien.faces.head import residual
+from mien.faces.head.arrays import parse_arrays
 from mien.faces.head.head import Head
 from mien.faces.head.measured import Archive
 from mien.faces.head.residual import Residual
@@ -57,8 +58,7 @@ def old_archive(folder: Path) -> Archive:
         with tempfile.TemporaryDirectory() as place:
             pack_head.OUT = Path(place)
             pack_head.main(folder)
-            with np.load(Path(place) / "head.npz") as loaded:
-                return Archive({name: loaded[name] for name in loaded.files})
+            return Archive(parse_arrays((Path(place) / "head.arrays").read_bytes()))
     finally:
         mend_head.mend, model_mouth.build = mend, build
 

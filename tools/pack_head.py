@@ -1,4 +1,4 @@
-"""Pack the measured head into the file that ships: metres, float32, one archive without pickles.
+"""Pack the measured head into the file that ships: metres, float32, one file that is read at once.
 
     python tools/pack_head.py FOLDER
 
@@ -16,6 +16,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 import mend_head
 import model_mouth
+
+from mien.faces.head.arrays import format_arrays
 
 CM = 0.01
 OUT = Path(__file__).parents[1] / "src/mien/faces/head/data"
@@ -115,8 +117,9 @@ def main(folder: Path) -> None:
         done[np.abs(done) < 2e-6] = 0.0
         out[f"morph_{name}"] = done.astype(np.float16)
     OUT.mkdir(parents=True, exist_ok=True)
-    np.savez_compressed(OUT / "head.npz", **out)
-    print(f"{OUT / 'head.npz'}: {(OUT / 'head.npz').stat().st_size / 1e3:.0f} kB")
+    path = OUT / "head.arrays"
+    path.write_bytes(format_arrays({name: np.asarray(array) for name, array in out.items()}))
+    print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
 
 
 if __name__ == "__main__":

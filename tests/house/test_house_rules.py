@@ -126,7 +126,7 @@ def test_every_dependency_has_a_lower_bound():
 
 
 def test_measured_data_carry_their_licence():
-    for folder in {path.parent for path in (ROOT / "src").rglob("data/*.npz")}:
+    for folder in {path.parent for path in (ROOT / "src").rglob("data/*.arrays")}:
         licences = [path for path in folder.iterdir() if "licen" in path.name.lower()]
         assert licences, f"{folder.relative_to(ROOT)} has measured data and no licence beside them"
         assert "USC Institute for Creative Technologies" in licences[0].read_text()

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from mien.core import MienError, UnknownNameError
 from mien.core.mesh import Ints, Points
 
+from .arrays import parse_arrays
+
 Floats = NDArray[np.float64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 Kind = Literal["cage", "surface"]
@@ -89,7 +91,7 @@ class Hair:
 
 @dataclass(frozen=True, eq=False)
 class Archive:
-    """``data/head.npz``, its arrays converted when first asked for."""
+    """``data/head.arrays``, its arrays converted when first asked for."""
 
     arrays: Mapping[str, NDArray[np.generic]]
 
@@ -177,11 +179,10 @@ class Archive:
 @cache
 def archive() -> Archive:
     """The data file that ships."""
-    place = files(__package__).joinpath("data/head.npz")
+    place = files(__package__).joinpath("data/head.arrays")
     if not place.is_file():
         raise MienError(f"{place}: the head's data is missing — was mien installed completely?")
-    with place.open("rb") as stream, np.load(stream) as loaded:
-        return Archive({name: loaded[name] for name in loaded.files})
+    return Archive(parse_arrays(place.read_bytes()))
 
 
 def _locked(array: NDArray[Scalar]) -> NDArray[Scalar]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
@@ -48,7 +48,6 @@ class Layout:
         span: part -> its run of vertices.
         rest: part -> (N, 3) m of the parts that are modelled in place.
         lower: part -> (N,) whether a vertex belongs to the lower jaw.
-        mirror: (V,) vertex in the mirror, -1 for hair.
         hair: its style.
         sides: of the pupil and of every ring of an eye.
         skin: (N,) measured vertex of each vertex of the skin, which doubles some along creases.
@@ -59,10 +58,17 @@ class Layout:
     span: Mapping[str, slice]
     rest: Mapping[str, Points]
     lower: Mapping[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]
-    mirror: Ints
     hair: Hair
     sides: int
     skin: Ints
+
+    @cached_property
+    def mirror(self) -> Ints:
+        """(V,) vertex in the mirror, -1 for hair."""
+        mirror = _mirror(self.span, self.rest, self.topology.vertex_count, self.sides)
+        classic = self.sides == CLASSIC
+        mirror[self.span["skin"]] = creased_skin(self.archive).mirror if classic else self.archive.mirror
+        return mirror
 
     def join(self, parts: Mapping[str, Floats]) -> Floats:
         """(V, 3) with each part's rows in its place; parts that are not given are 0."""
@@ -117,8 +123,9 @@ def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
     """
     classic = kind == "surface"
     sides = CLASSIC if classic else SMOOTH
-    creased = creased_skin(archive)
-    quads, skin = (creased.quads, creased.source) if classic else (archive.quads, np.arange(len(archive.mirror)))
+    quads, skin = archive.quads, np.arange(len(archive.mirror))
+    if classic:
+        quads, skin = creased_skin(archive).quads, creased_skin(archive).source
     style = archive.hair(hair)
     rest = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue", "collar")}
     rest["hair"] = style.points
@@ -139,9 +146,7 @@ def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
             polygons.append((name, numbers + first, material))
         first += count
     lower = {name: archive.ints(f"{name}_lower").astype(bool) for name in ("teeth", "gums")}
-    mirror = _mirror(span, rest, first, sides)
-    mirror[span["skin"]] = creased.mirror if classic else archive.mirror
-    return Layout(archive, build_topology(first, polygons), span, rest, lower, mirror, style, sides, skin)
+    return Layout(archive, build_topology(first, polygons), span, rest, lower, style, sides, skin)
 
 
 def _rows_of_an_eye(archive: Archive, side: str, sides: int) -> list[tuple[str, int, Ints, Material]]:
