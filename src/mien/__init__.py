@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .api import draw, face_names, load_face, perform, play, say, speak, voices
+    from .api import draw, draw_paths, face_names, load_face, make_model, perform, play, say, sheet, speak, voices
     from .core import (
         Cue,
         Face,
@@ -59,17 +59,32 @@ __all__ = [
     "__version__",
     "contact_sheet",
     "draw",
+    "draw_paths",
     "face_names",
     "load_face",
+    "make_model",
     "perform",
     "play",
     "say",
+    "sheet",
     "speak",
     "voices",
 ]
 
 _HOMES = {
-    "mien.api": ("draw", "face_names", "load_face", "perform", "play", "say", "speak", "voices"),
+    "mien.api": (
+        "draw",
+        "draw_paths",
+        "face_names",
+        "load_face",
+        "make_model",
+        "perform",
+        "play",
+        "say",
+        "sheet",
+        "speak",
+        "voices",
+    ),
     "mien.formats.picture": ("Picture",),
     "mien.formats.sheet": ("contact_sheet",),
     "mien.perform": ("Performance", "Style"),

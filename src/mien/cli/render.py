@@ -1,8 +1,18 @@
-"""``mien render``: a picture of one pose."""
+"""``mien render``: a picture of one pose, its mesh, or a labelled page of many."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from . import options
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from mien.core import Face, Pose, Scene
+
+    from .stages import Stages
 
 
 def render(
@@ -10,6 +20,7 @@ def render(
     out: options.Out,
     values: options.Sets = None,
     preset: options.Presets = None,
+    sheet: options.Sheet = None,
     size: options.Size = None,
     view: options.View = None,
     position: options.From = None,
@@ -21,25 +32,24 @@ def render(
     threads: options.Threads = None,
     quiet: options.Quiet = False,
 ) -> None:
-    """Draw one pose of a face, as PNG or JPEG.
+    """Draw one pose of a face: .png, .jpg, .svg (one shade a polygon), or its mesh: .obj.
 
     \b
     mien render head --set jaw.rotation=8 -o open.png
     mien render head --preset smile --view side --size 512 -o smile.jpg
-    mien render head --background transparent -o cutout.png
+    mien render head --background transparent -o cutout.svg
+    mien render head --sheet presets -o presets.png
     """
     from mien import api
     from mien.formats.atomic import check_file
-    from mien.formats.table import find_format
 
     from . import settings
     from .stages import Stages, format_time
-    from .writing import prepare
 
-    find_format(out, "picture")
+    kind = _find_kind(out, sheet, view or position)
     check_file(out)
     scene = settings.make_scene(
-        api.default_scene(),
+        _usual_scene(kind, sheet),
         size=size,
         view=view,
         position=position,
@@ -53,6 +63,63 @@ def render(
     subject = api.load_face(face)
     pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
     stages = Stages(quiet)
+    if kind == "svg" and shading == "smooth":
+        stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")
+    what = _write(out, kind, sheet, subject, pose, scene, threads, stages)
+    stages.say(f"{out}: {what}; done in {format_time(stages.elapsed_s)}")
+
+
+def _find_kind(out: Path, sheet: str | None, direction: str | None) -> str:
+    """Name of the format of a picture or a sheet."""
+    from mien.core import MienError
+    from mien.formats.table import find_format
+
+    kind = find_format(out, "picture").name
+    if sheet is not None and "pixels" not in find_format(out, "picture").holds:
+        raise MienError(f"{out}: a sheet is made of pixels — end the name in .png or .jpg")
+    if sheet == "views" and direction is not None:
+        raise MienError(f"--sheet views shows the face from all sides, not from {direction} — leave that out")
+    return kind
+
+
+def _usual_scene(kind: str, sheet: str | None) -> Scene:
+    from mien import api
+
+    if sheet is not None:
+        from mien.formats.face_sheets import sheet_scene
+
+        return sheet_scene(sheet)
+    return replace(api.default_scene(), subdivide=1) if kind == "svg" else api.default_scene()
+
+
+def _write(
+    out: Path,
+    kind: str,
+    sheet: str | None,
+    face: Face,
+    pose: Pose,
+    scene: Scene,
+    threads: int | None,
+    stages: Stages,
+) -> str:
+    """Writes it; what it was."""
+    from mien import api
+
+    from .writing import prepare
+
+    if kind == "svg":
+        paths = api.draw_paths(face, pose, scene)
+        paths.write(out)
+        return f"{len(paths.drawing.paths)} paths"
+    if kind == "obj":
+        model = api.make_model(face, pose, scene)
+        model.write(out)
+        return f"{model.mesh.topology.polygon_count} polygons"
     prepare(stages)
-    api.draw(subject, pose, scene, threads=threads).write(out)
-    stages.say(f"{out}: {scene.size_px[0]}x{scene.size_px[1]} pixels; done in {format_time(stages.elapsed_s)}")
+    if sheet is None:
+        picture = api.draw(face, pose, scene, threads=threads)
+    else:
+        with stages.progress("drawing") as report:
+            picture = api.sheet(face, sheet, pose, scene, threads=threads, report=report)
+    picture.write(out)
+    return "{}x{} pixels".format(*picture.size_px)

@@ -50,7 +50,7 @@ class Picture:
             UnknownNameError: the suffix is of neither.
             MienError: the place cannot be written.
         """
-        name = find_format(path, "picture").name
+        name = find_format(path, "pixels").name
         encoded = self.to_jpeg() if name == "jpeg" else self.to_png()
         with writing(path) as temporary:
             temporary.write_bytes(encoded)

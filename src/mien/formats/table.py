@@ -18,8 +18,8 @@ class Format:
     Attributes:
         name: short name.
         suffixes: lower case; an empty one stands for a folder.
-        holds: what a user asks for when he names such a file: picture, performance, timeline (to play), plot,
-            subtitles (beside a film).
+        holds: what a user asks for when he names such a file: picture, pixels (a picture made of them), performance,
+            timeline (to play), plot, subtitles (beside a film).
         doc: what is in the file.
     """
 
@@ -32,8 +32,10 @@ class Format:
 FORMATS: tuple[Format, ...] = (
     Format("film", tuple(codec.suffix for codec in CODECS), ("performance",), "moving pictures: table ``codecs``"),
     Format("folder", ("",), ("performance",), "a folder of PNG frames and the sound"),
-    Format("png", (".png",), ("picture",), "PNG, with transparency"),
-    Format("jpeg", (".jpg", ".jpeg"), ("picture",), "JPEG, over white"),
+    Format("png", (".png",), ("picture", "pixels"), "PNG, with transparency"),
+    Format("jpeg", (".jpg", ".jpeg"), ("picture", "pixels"), "JPEG, over white"),
+    Format("svg", (".svg",), ("picture",), "filled paths, sharp at every size"),
+    Format("obj", (".obj",), ("picture",), "the mesh: points with colours and normals, polygons, parts"),
     Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
     Format("wav", (".wav",), ("performance",), "the sound alone"),
     Format("subtitles", (".srt", ".vtt"), ("performance", "subtitles"), "what is said, as SubRip or WebVTT subtitles"),

@@ -1,0 +1,70 @@
+"""``mien render``: pictures, paths, meshes and labelled sheets, each by its suffix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from PIL import Image
+
+from mien.cli import main
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.JPG", "a.svg", "a.obj"])
+def test_the_suffix_picks_the_format_and_the_bytes_are_the_same_again(name: str) -> None:
+    def render() -> bytes:
+        assert main(["render", "head", "--size", "64", "--subdivide", "0", "-q", "-o", name]) == 0
+        return Path(name).read_bytes()
+
+    assert render() == render()
+    assert [path.name for path in Path().iterdir()] == [name]
+
+
+def test_an_svg_is_subdivided_once_unless_asked_for_more(capsys: pytest.CaptureFixture[str]) -> None:
+    counts = []
+    for more in ([], ["--subdivide", "1"], ["--subdivide", "0"]):
+        assert main(["render", "head", "--size", "64", "-o", "a.svg", *more]) == 0
+        counts.append(sum(1 for _ in ElementTree.parse("a.svg").iter("{http://www.w3.org/2000/svg}path")))
+    assert counts[0] == counts[1] > 1.5 * counts[2] > 0
+    assert f"a.svg: {counts[2]} paths" in capsys.readouterr().err
+
+
+def test_a_smooth_svg_is_said_to_be_none(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["render", "head", "--shading", "smooth", "--subdivide", "0", "-o", "a.svg"]) == 0
+    assert "one shade a polygon" in capsys.readouterr().err
+
+
+def test_a_sheet_tells_its_size_and_that_it_is_done(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["render", "head", "--sheet", "views", "--size", "32", "--subdivide", "0", "-o", "a.jpg"]) == 0
+    with Image.open("a.jpg") as image:
+        width, height = image.size
+    text = capsys.readouterr().err
+    assert f"a.jpg: {width}x{height} pixels; done in" in text
+    assert "drawing: " in text
+
+
+MISTAKES = {
+    "unknown sheet": (["--sheet", "presests", "-o", "a.png"], "unknown sheet 'presests' — did you mean 'presets'"),
+    "sheet of paths": (["--sheet", "views", "-o", "a.svg"], "a sheet is made of pixels — end the name in .png or .jpg"),
+    "sheet of meshes": (["--sheet", "views", "-o", "a.obj"], "a sheet is made of pixels"),
+    "views from one side": (["--sheet", "views", "--view", "side", "-o", "a.png"], "from all sides, not from side"),
+    "huge sheet": (["--sheet", "parameters", "--size", "2000", "-o", "a.png"], "at most 16384 a side"),
+    "almost a suffix": (["-o", "a.svgg"], "did you mean '.svg'"),
+    "paths nowhere": (["-o", "no/a.svg"], "mkdir -p no"),
+    "mesh of a wrong value": (["--set", "jaw.rotation=80", "-o", "a.obj"], "from 0 to 20 deg"),
+}
+
+
+@pytest.mark.parametrize(("arguments", "message"), MISTAKES.values(), ids=MISTAKES)
+def test_mistakes_end_with_a_clear_message_and_no_file(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["render", "head", *arguments]) == 2
+    assert message in capsys.readouterr().err
+    assert list(Path().iterdir()) == []
