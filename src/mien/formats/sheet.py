@@ -170,8 +170,16 @@ class _Setting:
 
     def _set(self, page: Page) -> int:
         y = self.margin + self.title_px
-        self.texts.append((self.margin, y, page.title, self.title_px, INK, "ls"))
-        self.texts.append((self.margin + self.content, y, page.remark, self.heading_px, GREY, "rs"))
+        aside = _width(page.remark, self.heading_px) + self.gutter
+        beside = _width(page.title, self.title_px) + aside <= self.content
+        title = _shorten(page.title, self.content, self.title_px)
+        self.texts.append((self.margin, y, title, self.title_px, INK, "ls"))
+        if beside:
+            self.texts.append((self.margin + self.content, y, page.remark, self.heading_px, GREY, "rs"))
+        else:
+            y += 2 * self.heading_px
+            remark = _shorten(page.remark, self.content, self.heading_px)
+            self.texts.append((self.margin, y, remark, self.heading_px, GREY, "ls"))
         y += self.gutter
         for band in self._bands(page.sections):
             y += self._set_band(band, y)
@@ -227,9 +235,12 @@ class _Setting:
         below = y + self.text_px + self.line // 2
         most = 0
         for block in row:
-            self.texts.append((x, y + self.text_px, block.name, self.text_px, INK, "ls"))
-            aside = x + round(_font(self.text_px).getlength(block.name) + self.text_px * 0.6)
-            self.texts.append((aside, y + self.text_px, block.remark, self.text_px, GREY, "ls"))
+            width = self._span([block])
+            name = _shorten(block.name, width, self.text_px)
+            self.texts.append((x, y + self.text_px, name, self.text_px, INK, "ls"))
+            aside = _width(f"{name} ", self.text_px) + self.text_px // 3
+            if aside + _width(block.remark, self.text_px) <= width:
+                self.texts.append((x + aside, y + self.text_px, block.remark, self.text_px, GREY, "ls"))
             for number, caption in zip(block.pictures, block.captions, strict=True):
                 self.pictures.append((number, x, below))
                 lines = _wrap(caption, self.cell, self.text_px)
@@ -257,13 +268,25 @@ def _font(size_px: int) -> Any:
     return ImageFont.load_default(size_px)
 
 
+def _width(text: str, size_px: int) -> int:
+    """Pixels from the beginning of a line of text to its end."""
+    return math.ceil(_font(size_px).getlength(text))
+
+
+def _shorten(text: str, width: int, size_px: int) -> str:
+    """As much of the text as fits into that width, with dots where the rest was."""
+    if _width(text, size_px) <= width:
+        return text
+    kept = next((k for k in range(len(text) - 1, 0, -1) if _width(f"{text[:k]}…", size_px) <= width), 0)
+    return f"{text[:kept]}…"
+
+
 def _wrap(text: str, width: int, size_px: int) -> list[str]:
-    """The text in lines that are no wider than that; a word that is too long has its line to itself."""
-    font = _font(size_px)
+    """The text in lines that are no wider than that."""
     lines: list[str] = []
     for word in text.split():
-        if lines and font.getlength(f"{lines[-1]} {word}") <= width:
+        if lines and _width(f"{lines[-1]} {word}", size_px) <= width:
             lines[-1] += f" {word}"
         else:
             lines.append(word)
-    return lines
+    return [_shorten(line, width, size_px) for line in lines]
