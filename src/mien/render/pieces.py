@@ -52,35 +52,39 @@ def cut_pieces(mesh: Mesh, scene: Scene) -> Pieces:
     topology = mesh.topology
     camera = Camera.of(scene)
     view = camera.view(exact.round_points(mesh.points))
-    codes = outcodes(camera, view)[topology.triangles]
-    inside, outside = ~codes.any(axis=1), np.bitwise_and.reduce(codes, axis=1) != 0
-    two_sided = np.array([part.material.two_sided for part in topology.parts], dtype=bool)
+    owner, sizes = topology.polygon_of_triangle, np.diff(topology.starts)
+    two_sided = np.array([part.material.two_sided for part in topology.parts], dtype=bool)[topology.part_of_polygon]
 
-    owner = topology.polygon_of_triangle
     side = _side(view[topology.triangles])
-    seen = (side > 0.0) | ((side < 0.0) & two_sided[topology.part_of_polygon[owner]])
-    sizes = np.diff(topology.starts)
-    turned = np.bincount(owner, side > 0.0, len(sizes))
-    kept = np.bincount(owner, seen & inside, len(sizes))
-    whole = (kept == sizes - 2) & ((turned == 0) | (turned == sizes - 2)) & (sizes >= 3)
+    front = np.bincount(owner, side > 0.0, len(sizes))
+    back = np.bincount(owner, side < 0.0, len(sizes))
+    flat = (sizes >= 3) & ((front == sizes - 2) | ((back == sizes - 2) & two_sided))
+    twisted = np.flatnonzero(~flat[owner] & ((side > 0.0) | ((side < 0.0) & two_sided[owner])))
 
-    torn = np.flatnonzero(seen & inside & ~whole[owner])
-    crossing = np.flatnonzero(seen & ~inside & ~outside)
-    clipped, clipped_sizes = clip_polygons(camera, view[topology.triangles[crossing]])
-    clipped_sizes[clipped_sizes < 3] = 0
-    slots = np.arange(clipped.shape[1])[None, :] < clipped_sizes[:, None]
-    left = clipped_sizes > 0
-    corners = [
-        view[topology.corners[whole[topology.polygon_of_corner]]],
-        view[topology.triangles[torn].reshape(-1)],
-        clipped[slots],
-    ]
-    numbers = np.concatenate([sizes[whole], np.full(len(torn), 3), clipped_sizes[left]])
+    pieces = [_clip(camera, view[topology.triangles[twisted]], owner[twisted])]
+    for size in np.unique(sizes[flat]).tolist():
+        polygons = np.flatnonzero(flat & (sizes == size))
+        corners = topology.corners[topology.starts[polygons][:, None] + np.arange(size)]
+        pieces.append(_clip(camera, view[corners], polygons))
     return Pieces(
-        _project(camera, np.concatenate(corners)),
-        np.concatenate([[0], np.cumsum(numbers)]),
-        np.concatenate([np.flatnonzero(whole), owner[torn], owner[crossing[left]]]),
+        _project(camera, np.concatenate([corners for corners, _, _ in pieces])),
+        np.concatenate([[0], *(numbers for _, numbers, _ in pieces)]).cumsum(),
+        np.concatenate([polygon for _, _, polygon in pieces]),
     )
+
+
+def _clip(camera: Camera, polygons: Floats, owner: Ints) -> tuple[Floats, Ints, Ints]:
+    """What of polygons (n, m, 3) of the camera's frame is in the picture: corners, how many a piece, whose it is."""
+    number, size = polygons.shape[:2]
+    codes = outcodes(camera, polygons.reshape(-1, 3)).reshape(number, size)
+    crossing = (np.bitwise_or.reduce(codes, axis=1) != 0) & (np.bitwise_and.reduce(codes, axis=1) == 0)
+    inside = np.flatnonzero(~codes.any(axis=1))
+    clipped, counts = clip_polygons(camera, polygons[crossing])
+    counts[counts < 3] = 0
+    corners = np.concatenate([polygons[inside].reshape(-1, 3), clipped[np.arange(clipped.shape[1]) < counts[:, None]]])
+    left = counts > 0
+    sizes = np.concatenate([np.full(len(inside), size), counts[left]])
+    return corners, sizes, np.concatenate([owner[inside], owner[crossing][left]])
 
 
 def cut_pierced(pieces: Pieces, pairs: Iterable[tuple[int, int]]) -> Pieces:
