@@ -108,7 +108,7 @@ def spot_direction(light, viewer, centre=(0.0, 0.0, 0.0), radius=1.0, iris=0.39)
 
 def spot_points(light, viewer):
     points = np.empty((6, 3))
-    in_python(eyes.place_spot)(np.zeros(3), 0.012, AHEAD, 0.39, 0.058, light, viewer, eyes.circle(6), points)
+    in_python(eyes.place_spot)(np.zeros(3), 0.012, AHEAD, (0.39, 0.058), light, viewer, eyes.circle(6), points)
     return points
 
 

@@ -193,22 +193,21 @@ def place_eye(centre, radius, forward, radii, steps, circle, points, normals):
 
 
 @kernel()
-def place_spot(centre, radius, forward, iris, spot, light, viewer, hexagon, points):
+def place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points):
     """Fill ``points`` (6, 3) m: a hexagon on the eye where the light is mirrored to the viewer.
 
     Args:
         centre: of the ball, m.
         radius: of the ball, m.
         forward: unit vector, where it looks.
-        iris: its size, a share of the ball's radius.
-        spot: its size, a share of the ball's radius.
+        sizes: of iris and spot, shares of the ball's radius.
         light: its place as the head has it before it turns, m.
         viewer: likewise.
         hexagon: (6, 2) of ``circle``.
         points: filled.
     """
-    direction, shown = spot_direction(centre, radius, forward, iris, light, viewer)
-    size = max(spot * shown, 1e-3)
+    direction, shown = spot_direction(centre, radius, forward, sizes[0], light, viewer)
+    size = max(sizes[1] * shown, 1e-3)
     aside, above = aside_and_above(direction)
     for corner in range(len(hexagon)):
         for axis in range(3):

@@ -204,6 +204,14 @@ def move_lips(points, rows, regions, width, offset, upper_lip, corners):
 
 
 @kernel()
+def copy_rows(points, rows, out):
+    """Copy some rows of points (V, 3) to ``out`` (V, 3)."""
+    for n in range(len(rows)):
+        for axis in range(3):
+            out[rows[n], axis] = points[rows[n], axis]
+
+
+@kernel()
 def tuck_lip(points, before_jaw, rows, share, tuck):
     """Bring the lower lip of the skin (V, 3) m under the upper front teeth, wherever the jaw is (f, v).
 

@@ -26,8 +26,9 @@ def neck_share(points: Points) -> Floats:
 
 
 @kernel()
-def turn_point(x, y, z, turned, nodded, tilted):
-    """A point about the neck's pivot tilted, nodded, then turned by angles in radians."""
+def turn_point(x, y, z, angles):
+    """A point about the neck's pivot tilted, nodded, then turned; ``angles`` are turn, nod and tilt, radians."""
+    turned, nodded, tilted = angles
     x, y = turn(x, y, -tilted)
     y, z = turn(y, z, -nodded)
     z, x = turn(z, x, turned)
@@ -35,8 +36,9 @@ def turn_point(x, y, z, turned, nodded, tilted):
 
 
 @kernel()
-def turn_back(place, turned, nodded, tilted):
+def turn_back(place, angles):
     """A place in the room, m, as the turned head sees it: the inverse of ``turn_head``."""
+    turned, nodded, tilted = angles
     if turned == 0.0 and nodded == 0.0 and tilted == 0.0:
         return place[0], place[1], place[2]
     x, y, z = place[0] - PIVOT[0], place[1] - PIVOT[1], place[2] - PIVOT[2]
@@ -47,11 +49,11 @@ def turn_back(place, turned, nodded, tilted):
 
 
 @kernel()
-def turn_axes(turned, nodded, tilted):
+def turn_axes(angles):
     """Where the three steps take the axes x, y and z."""
-    x = turn_point(1.0, 0.0, 0.0, turned, nodded, tilted)
-    y = turn_point(0.0, 1.0, 0.0, turned, nodded, tilted)
-    z = turn_point(0.0, 0.0, 1.0, turned, nodded, tilted)
+    x = turn_point(1.0, 0.0, 0.0, angles)
+    y = turn_point(0.0, 1.0, 0.0, angles)
+    z = turn_point(0.0, 0.0, 1.0, angles)
     return x, y, z
 
 
@@ -67,8 +69,9 @@ def turn_directions(directions, axes):
 
 
 @kernel()
-def turn_head(points, share, axes, turned, nodded, tilted):
+def turn_head(points, share, axes, angles):
     """Tilt, nod, then turn points (V, 3) m about the neck's pivot, each by its share (V,) of the angles."""
+    turned, nodded, tilted = angles
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axes
     for v in range(len(points)):
         if share[v] == 0.0:
@@ -79,5 +82,5 @@ def turn_head(points, share, axes, turned, nodded, tilted):
             points[v, 1] = ay * x + by * y + cy * z + PIVOT[1]
             points[v, 2] = az * x + bz * y + cz * z + PIVOT[2]
         else:
-            x, y, z = turn_point(x, y, z, turned * share[v], nodded * share[v], tilted * share[v])
+            x, y, z = turn_point(x, y, z, (turned * share[v], nodded * share[v], tilted * share[v]))
             points[v, 0], points[v, 1], points[v, 2] = x + PIVOT[0], y + PIVOT[1], z + PIVOT[2]

@@ -95,70 +95,55 @@ class Poser:
         moves = [*muscle_moves(measured.morphs), *brow_moves(brows, measured), *smile_moves(measured)]
         self._moves: Moves = moves_of(moves, table)
         self._skin = np.ascontiguousarray(measured.points).ravel()
-        self._eyes = eyes
         starts = [layout.span[name].start for name in posing.PARTS]
-        self._parts = np.array([*starts, layout.span["tongue"].stop], dtype=np.int64)
         lids, contacts = lid_table(measured.lids), mouth.contacts
-        self._deform = (
+        lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
+        share = np.ones(layout.topology.vertex_count)
+        share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
+        share[layout.span["collar"]] = 0.0
+        self._constants = (
+            *(np.array([*starts, layout.span["tongue"].stop], dtype=np.int64), eyes.balls, eyes.kappa_deg),
             *(mouth.rows, mouth.moving, mouth.tuck[mouth.rows]),
-            *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual, measured.morphs["mouthClose"]),
-            *(contacts.numbers, contacts.shares, contacts.gaps),
+            *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
+            *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
             *(lids.numbers, lids.polar, lids.rest, REST_OPENING),
-        )
-        first = layout.span["teeth"].start
-        self._rest = (layout.skin, layout.join(rest)[first:].ravel(), first)
-        self._rings = (band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive))
-        self._hairs = (
+            *(layout.skin, layout.join(rest)[layout.span["teeth"].start :].ravel()),
+            *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
             *(archive.quads, *_polygons_around(archive.quads, np.concatenate(strips.index), len(measured.points))),
+            *(np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]), tip_share(rest["tongue"]), jaw.chin),
+            *(archive.vertex["m0_0"], share),
         )
-        lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
-        carried = np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)])
-        self._mouth = (carried, tip_share(rest["tongue"]), jaw.axis, jaw.chin)
-        self._lip_edge = archive.vertex["m0_0"]
-        self._neck_share = np.ones(layout.topology.vertex_count)
-        self._neck_share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
-        self._neck_share[layout.span["collar"]] = 0.0
 
     def pose(self, values: Floats, points: Points, normals: Points, colors: Points) -> None:
         """Fill the points (V, 3) m and normals (V, 3) of a pose (P,), and darken its colours (V, 3) by shadows."""
-        weights = np.empty((1, len(self._moves.columns)))
-        weigh_moves(values[None], self._moves.columns, self._moves.rules, weights)
         skins = np.empty((1, len(self._skin)))
-        add_moves(weights, self._moves.deltas, self._skin, skins)
-        controls = values[self._columns][None]
-        self._place(controls, skins, points[None], normals[None])
-        posing.shade_parts(self._parts, self._eyes.balls, self._lip_edge, points, colors)
-        self._turn(controls, points[None], normals[None])
+        add_moves(self._weights(values[None]), self._moves.deltas, self._skin, skins)
+        self._pose(values[None], skins, points[None], normals[None], colors[None])
 
     def pose_many(self, values: Floats, points: Points) -> None:
         """Fill the points (N, V, 3) m of poses (N, P): as ``pose`` does, but for the rounding of sums of moves."""
-        normals = np.empty((1, *points.shape[1:]))
+        normals, colors = np.empty((1, *points.shape[1:])), np.empty((0, *points.shape[1:]))
         for first in range(0, len(values), CHUNK):
-            some, out = values[first : first + CHUNK], points[first : first + CHUNK]
-            weights = np.empty((len(some), len(self._moves.columns)))
-            weigh_moves(some, self._moves.columns, self._moves.rules, weights)
-            skins = weights @ self._moves.deltas
+            some = values[first : first + CHUNK]
+            skins = self._weights(some) @ self._moves.deltas
             skins += self._skin
-            controls = np.take(some, self._columns, axis=1)
-            self._place(controls, skins, out, normals)
-            self._turn(controls, out, normals)
+            self._pose(some, skins, points[first : first + CHUNK], normals, colors)
 
-    def _place(self, controls: Floats, skins: Floats, points: Points, normals: Points) -> None:
-        count = len(controls)
+    def _weights(self, values: Floats) -> Floats:
+        """(N, M) how much of each move is added in poses (N, P)."""
+        weights = np.empty((len(values), len(self._moves.columns)))
+        weigh_moves(values, self._moves.columns, self._moves.rules, weights)
+        return weights
+
+    def _pose(self, values: Floats, skins: Floats, points: Points, normals: Points, colors: Points) -> None:
+        count = len(values)
         skins = skins.reshape(count, -1, 3)
-        gaze, scratch, radii = np.empty((count, 2, 3)), np.empty((2, *skins.shape[1:])), np.empty((7, 2))
-        posing.aim_eyes(controls, self._eyes.balls, self._eyes.kappa_deg, gaze)
-        posing.deform_skin(controls, gaze, *self._deform, scratch, skins)
-        posing.place_skin(skins, *self._rest, points, points.reshape(count, -1))
-        around = (controls, skins, gaze, self._parts, self._eyes.balls)
-        posing.place_eyes(*around, *self._rings, radii, points, normals)
-        posing.place_hairs(skins, self._parts, self._eyes.balls, *self._hairs, scratch[0], points)
-        posing.place_mouth(controls, self._parts, *self._mouth, points)
-
-    def _turn(self, controls: Floats, points: Points, normals: Points) -> None:
-        posing.turn_heads(controls, self._parts, self._neck_share, points, normals)
+        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, *skins.shape[1:])))
+        flat = points.reshape(count, -1)
+        controls = np.take(values, self._columns, axis=1)
+        posing.pose_heads(controls, *self._constants, *scratch, skins, points, flat, normals, colors)
 
 
 def _polygons_around(quads: Ints, vertices: Ints, count: int) -> tuple[Ints, Ints, Ints]:

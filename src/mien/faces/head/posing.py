@@ -1,6 +1,9 @@
-"""The kernels that pose a head, in the order in which the parameters act; each takes N poses at once.
+"""The kernel that poses a head, and the order in which its parameters act.
 
-A pose arrives twice: as the weights of the moves, and as its row of ``CONTROLS``, which are named by number here.
+Moves of the skin come first (``moves``); what is more than moves follows here: lips, jaw, contact of the lips, the
+lids, which ride on what lies beneath; eyes, lashes, brows, teeth and tongue; then the whole head on its neck.
+
+Source: Parke 1974, chapter 3.
 """
 
 # Numba finds the types of arguments by itself, so that the functions below name none.
@@ -15,7 +18,7 @@ from .eyes import fill_radii, look_at, place_eye, place_spot
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, move_lids
-from .mouth import close_lips, move_lips, tuck_lip
+from .mouth import close_lips, copy_rows, move_lips, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
@@ -31,7 +34,7 @@ PAIRED = (
     *("eyelid.opening", "eye.turn", "eye.nod", "iris.size", "pupil.size", "fringe.size", "spot.size"),
 )
 CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".right")))
-"""Parameters of the mechanisms that are more than moves."""
+"""Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
 
 JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP_UP, TIP_OUT, TURN, NOD, TILT = range(13)
 TARGET, LIGHT, VIEWER, CORNERS = 13, 16, 19, 22
@@ -51,161 +54,112 @@ TONGUE_SHIFT = 0.7
 """How far the tongue goes with the jaw's rotation, and with its sideways and forward moves."""
 
 
-@kernel("f8[:,:], f8[:,:], f8[:], f8[:,:,:]")
-def aim_eyes(controls, balls, kappa_deg, gaze):
-    """Fill ``gaze`` (N, 2, 3), the directions of the left and the right eye.
+@kernel()
+def aim_eyes(c, balls, kappa_deg, angles, gaze):
+    """Fill ``gaze`` (2, 3), the directions of both eyes.
 
     Args:
-        controls: (N, D).
+        c: a row of controls.
         balls: (2, 4) m, centre and radius.
-        kappa_deg: (2,) angle added to the turn of each eye.
+        kappa_deg: (2,) angle added to the turn of each.
+        angles: turn, nod and tilt of the head, radians.
         gaze: filled.
     """
-    for frame in range(len(controls)):
-        c = controls[frame]
-        target = turn_back(c[TARGET : TARGET + 3], c[TURN] * DEG, c[NOD] * DEG, c[TILT] * DEG)
-        for side in range(2):
-            forward = look_at(balls[side], target, c[EYE_TURN + side] + kappa_deg[side], c[EYE_NOD + side])
-            for axis in range(3):
-                gaze[frame, side, axis] = forward[axis]
+    target = turn_back(c[TARGET : TARGET + 3], angles)
+    for side in range(2):
+        forward = look_at(balls[side], target, c[EYE_TURN + side] + kappa_deg[side], c[EYE_NOD + side])
+        gaze[side, 0], gaze[side, 1], gaze[side, 2] = forward
 
 
-@kernel(
-    "f8[:,:], f8[:,:,:], i8[:], f8[:,:], f8[:], f8[:], f8[:], f8, f8[:,:], f8[:,:], i8[:,:,:], f8[:], f8[:,:], "
-    "i8[:,:], f8[:,:], f8[:,:], f8, f8[:,:,:], f8[:,:,:]"
-)
-def deform_skin(
-    controls, gaze, lips, lip_regions, tuck_share, jaw_axis, jaw_share, open_angle_deg, jaw_residual, bridge,
-    contacts, contact_shares, gaps, lids, lid_polar, lid_rest, rest_opening, scratch, skins,
-):  # fmt: skip
-    """Change ``skins`` (N, S, 3) m, to which moves are added already: lips, jaw, contact of the lips, lids.
+@kernel()
+def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch):
+    """Change a skin (S, 3) m, to which moves are added already: lips, jaw, contact of the lips, lids.
 
     Args:
-        controls: (N, D).
-        gaze: (N, 2, 3) directions of the eyes.
-        lips: (R,) vertices of the mouth, with
-        lip_regions: (R, 7) of ``move_lips``, and
-        tuck_share: (R,) of ``tuck_lip``.
-        jaw_axis: (2,) m.
-        jaw_share: (S,).
-        open_angle_deg: of the measured open mouth.
-        jaw_residual: (S, 3) m.
-        bridge: (S, 3) m, contacts, contact_shares, gaps: of ``close_lips``.
-        lids: lid_polar, lid_rest: of ``LidTable``.
-        rest_opening: of the lids.
+        c: a row of controls.
+        skin: changed.
+        gaze: (2, 3) directions of the eyes.
+        lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), and their shares in ``tuck_lip`` (R,).
+        jaw: axis, share, angle of the measured open mouth, residual: of ``open_jaw``.
+        contacts: bridge, numbers, shares, gaps: of ``close_lips``.
+        lids: numbers, polar and rest of ``move_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
-        skins: changed.
     """
-    before, moves = scratch[0], scratch[1]
-    for frame in range(len(skins)):
-        c, skin = controls[frame], skins[frame]
-        move_lips(skin, lips, lip_regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
-        if c[TUCK] != 0.0:
-            for n in range(len(lips)):
-                for axis in range(3):
-                    before[lips[n], axis] = skin[lips[n], axis]
-        open_jaw(skin, c[JAW], jaw_axis, jaw_share, open_angle_deg, jaw_residual)
-        if c[TUCK] != 0.0:
-            tuck_lip(skin, before, lips, tuck_share, c[TUCK])
-        close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, contacts, contact_shares, gaps, moves)
-        closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
-        up = elevation_deg(gaze[frame, 0, 1]), elevation_deg(gaze[frame, 1, 1])
-        move_lids(skin, lids, lid_polar, lid_rest, closed, up)
+    rows, regions, tuck_share = lips
+    axis, share, open_angle_deg, residual = jaw
+    bridge, numbers, shares, gaps = contacts
+    lid_numbers, lid_polar, lid_rest, rest_opening = lids
+    before_jaw, moves = scratch[0], scratch[1]
+    move_lips(skin, rows, regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
+    if c[TUCK] != 0.0:
+        copy_rows(skin, rows, before_jaw)
+    open_jaw(skin, c[JAW], axis, share, open_angle_deg, residual)
+    if c[TUCK] != 0.0:
+        tuck_lip(skin, before_jaw, rows, tuck_share, c[TUCK])
+    close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, numbers, shares, gaps, moves)
+    closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
+    move_lids(skin, lid_numbers, lid_polar, lid_rest, closed, (elevation_deg(gaze[0, 1]), elevation_deg(gaze[1, 1])))
 
 
-@kernel("f8[:,:,:], i8[:], f8[:], i8, f8[:,:,:], f8[:,:]")
-def place_skin(skins, source, rest, first_at_rest, points, flat):
-    """Fill ``points`` (N, V, 3) m with the skins (N, S, 3), and with what is at rest in the head.
+@kernel()
+def place_eyes(c, skin, gaze, parts, balls, rings, angles, radii, points, normals):
+    """Fill the eyes of ``points`` and ``normals`` (V, 3): balls, spots, and the pink corners between the lids.
 
     Args:
-        skins: posed.
-        source: (K,) vertex of the skin of each of the first K vertices.
-        rest: (3 R,) m, of the vertices from
-        first_at_rest: on.
-        points: filled, but for the vertices between.
-        flat: (N, 3 V), the same memory: a run of numbers is copied several at a time.
-    """
-    for frame in range(len(skins)):
-        skin, out, run = skins[frame], points[frame], flat[frame, 3 * first_at_rest :]
-        for v in range(len(source)):
-            for axis in range(3):
-                out[v, axis] = skin[source[v], axis]
-        for i in range(len(rest)):
-            run[i] = rest[i]
-
-
-@kernel(
-    "f8[:,:], f8[:,:,:], f8[:,:,:], i8[:], f8[:,:], i8[:], f8[:,:], f8[:,:], i8[:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
-)
-def place_eyes(controls, skins, gaze, parts, balls, steps, circle, hexagon, corners, radii, points, normals):
-    """Fill the eyes of ``points`` and ``normals`` (N, V, 3): balls, spots, and the pink corners between the lids.
-
-    Args:
-        controls: (N, D).
-        skins: (N, S, 3) m, posed.
-        gaze: (N, 2, 3) directions of the eyes.
+        c: a row of controls.
+        skin: (S, 3) m, posed.
+        gaze: (2, 3) directions of the eyes.
         parts: first vertex of each of ``PARTS``.
         balls: (2, 4) m, centre and radius.
-        steps: of ``place_eye``.
-        circle: of ``place_eye``.
-        hexagon: of ``place_spot``.
-        corners: (2, 5) of ``place_caruncle``.
+        rings: steps and circle of ``place_eye``, hexagon of ``place_spot``, corners (2, 5) of ``place_caruncle``.
+        angles: turn, nod and tilt of the head, radians.
         radii: (7, 2), overwritten.
         points: filled.
-        normals: filled; where there are fewer than poses, the last one again and again.
+        normals: filled.
     """
-    for frame in range(len(skins)):
-        c, out, around = controls[frame], points[frame], normals[min(frame, len(normals) - 1)]
-        turned, nodded, tilted = c[TURN] * DEG, c[NOD] * DEG, c[TILT] * DEG
-        light = turn_back(c[LIGHT : LIGHT + 3], turned, nodded, tilted)
-        viewer = turn_back(c[VIEWER : VIEWER + 3], turned, nodded, tilted)
-        for side in range(2):
-            centre, radius, forward = balls[side], balls[side, 3], gaze[frame, side]
-            fill_radii(c[IRIS + side], c[PUPIL + side], c[FRINGE + side], radii)
-            first = parts[EYE + side]
-            place_eye(centre, radius, forward, radii, steps, circle, out[first:], around[first:])
-            spot = out[parts[SPOTS + side] :]
-            place_spot(centre, radius, forward, c[IRIS + side], c[SPOT + side], light, viewer, hexagon, spot)
-            place_caruncle(skins[frame], corners[side], centre, radius, side == 1, out[parts[CARUNCLE + side] :])
+    steps, circle, hexagon, corners = rings
+    light = turn_back(c[LIGHT : LIGHT + 3], angles)
+    viewer = turn_back(c[VIEWER : VIEWER + 3], angles)
+    for side in range(2):
+        centre, radius, forward = balls[side], balls[side, 3], gaze[side]
+        ball, spot, corner = parts[EYE + side], parts[SPOTS + side], parts[CARUNCLE + side]
+        fill_radii(c[IRIS + side], c[PUPIL + side], c[FRINGE + side], radii)
+        place_eye(centre, radius, forward, radii, steps, circle, points[ball:], normals[ball:])
+        sizes = c[IRIS + side], c[SPOT + side]
+        place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points[spot:])
+        place_caruncle(skin, corners[side], centre, radius, side == 1, points[corner:])
 
 
-@kernel(
-    "f8[:,:,:], i8[:], f8[:,:], i8[:,:,:], f8[:,:,:], f8[:,:,:], i8[:,:,:], f8[:,:,:], f8[:], "
-    "i8[:,:], i8[:], i8[:], i8[:], f8[:,:], f8[:,:,:]"
-)
-def place_hairs(
-    skins, parts, balls, lash_index, lash_weight, lash_reach, brow_index, brow_weight, brow_offset,
-    quads, normal_vertices, normal_starts, normal_columns, scratch, points,
-):  # fmt: skip
-    """Fill the lashes and brows of ``points`` (N, V, 3) m.
+@kernel()
+def place_hairs(skin, parts, balls, lashes, brows, under, normals, points):
+    """Fill the lashes and brows of ``points`` (V, 3) m.
 
     Args:
-        skins: (N, S, 3) m, posed.
+        skin: (S, 3) m, posed.
         parts: first vertex of each of ``PARTS``.
         balls: (2, 4) m, centre and radius.
-        lash_index: (2, K, B), lash_weight, lash_reach: of ``place_lashes``.
-        brow_index: (2, K, B), brow_weight, brow_offset: of ``place_brows``.
-        quads: (F, 4) of the skin.
-        normal_vertices: normal_starts, normal_columns: of ``sum_normals``.
-        scratch: (S, 3), overwritten.
+        lashes: index, weight, reach (2, K, B) of ``place_lashes``.
+        brows: index, weight (2, K, B), offset of ``place_brows``.
+        under: quads, vertices, starts, columns of ``sum_normals``.
+        normals: (S, 3), overwritten.
         points: filled.
     """
-    for frame in range(len(skins)):
-        skin, out = skins[frame], points[frame]
-        sum_normals(skin, quads, normal_vertices, normal_starts, normal_columns, scratch)
-        for side in range(2):
-            lashes, brow = out[parts[LASH + side] :], out[parts[BROW + side] :]
-            index, weight, reach = lash_index[side], lash_weight[side], lash_reach[side]
-            place_lashes(index, weight, reach, skin, balls[side], 1.0 - 2.0 * side, lashes)
-            place_brows(brow_index[side], brow_weight[side], brow_offset, skin, scratch, brow)
+    index, weight, reach = lashes
+    brow_index, brow_weight, offset = brows
+    quads, vertices, starts, columns = under
+    sum_normals(skin, quads, vertices, starts, columns, normals)
+    for side in range(2):
+        lash, brow = points[parts[LASH + side] :], points[parts[BROW + side] :]
+        place_lashes(index[side], weight[side], reach[side], skin, balls[side], 1.0 - 2.0 * side, lash)
+        place_brows(brow_index[side], brow_weight[side], offset, skin, normals, brow)
 
 
-@kernel("f8[:,:], i8[:], b1[:], f8[:], f8[:], f8[:,:], f8[:,:,:]")
-def place_mouth(controls, parts, carried, tip_share, jaw_axis, chin, points):
-    """Move teeth, gums and tongue of ``points`` (N, V, 3) m, which are at rest.
+@kernel()
+def place_inside(c, parts, carried, tip_share, jaw_axis, chin, points):
+    """Move teeth, gums and tongue of ``points`` (V, 3) m, which are at rest.
 
     Args:
-        controls: (N, D).
+        c: a row of controls.
         parts: first vertex of each of ``PARTS``.
         carried: (K,) whether a vertex, from the first of the teeth on, goes with the jaw.
         tip_share: of ``move_tongue``.
@@ -213,20 +167,18 @@ def place_mouth(controls, parts, carried, tip_share, jaw_axis, chin, points):
         chin: (3, 3) m of ``chin_shift``.
         points: changed.
     """
-    first, behind = parts[TEETH], parts[TONGUE] - parts[TEETH]
-    for frame in range(len(points)):
-        c, inside = controls[frame], points[frame, first:]
-        x, y, z = chin_shift(c[JAW_FORWARD], c[JAW_SIDE], chin)
-        carry_with_jaw(inside[:behind], carried, c[JAW], jaw_axis, (x, y, z))
-        tongue = inside[behind : behind + len(tip_share)]
-        move_tongue(tongue, tip_share, c[TIP_UP], c[TIP_OUT])
-        shift = TONGUE_SHIFT * x, TONGUE_SHIFT * y, TONGUE_SHIFT * z
-        carry_with_jaw(tongue, carried[behind:], TONGUE_SHARE * c[JAW], jaw_axis, shift)
+    first, behind, last = parts[TEETH], parts[TONGUE], parts[END]
+    x, y, z = chin_shift(c[JAW_FORWARD], c[JAW_SIDE], chin)
+    carry_with_jaw(points[first:behind], carried, c[JAW], jaw_axis, (x, y, z))
+    tongue = points[behind:last]
+    move_tongue(tongue, tip_share, c[TIP_UP], c[TIP_OUT])
+    shift = TONGUE_SHIFT * x, TONGUE_SHIFT * y, TONGUE_SHIFT * z
+    carry_with_jaw(tongue, carried[behind - first :], TONGUE_SHARE * c[JAW], jaw_axis, shift)
 
 
-@kernel("i8[:], f8[:,:], i8, f8[:,:], f8[:,:]")
-def shade_parts(parts, balls, lip_edge, points, colors):
-    """Darken colours (V, 3) where lids and lips cast shadows; ``points`` (V, 3) m are of a head that is not turned yet.
+@kernel()
+def darken(parts, balls, lip_edge, points, colors):
+    """Darken colours (V, 3) where lids and lips cast shadows on points (V, 3) m that are not turned yet.
 
     ``lip_edge`` is the vertex in the middle of the upper lip's edge.
     """
@@ -237,15 +189,91 @@ def shade_parts(parts, balls, lip_edge, points, colors):
     darken_mouth(colors[first:last], points[first:last], points[lip_edge, 1])
 
 
-@kernel("f8[:,:], i8[:], f8[:], f8[:,:,:], f8[:,:,:]")
-def turn_heads(controls, parts, neck_share, points, normals):
-    """Turn ``points`` (N, V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes."""
-    for frame in range(len(points)):
-        c, around = controls[frame], normals[min(frame, len(normals) - 1)]
-        turned, nodded, tilted = c[TURN] * DEG, c[NOD] * DEG, c[TILT] * DEG
-        if turned != 0.0 or nodded != 0.0 or tilted != 0.0:
-            axes = turn_axes(turned, nodded, tilted)
-            turn_head(points[frame], neck_share, axes, turned, nodded, tilted)
-            for side in range(2):
-                first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
-                turn_directions(around[first:last], axes)
+@kernel()
+def turn_all(parts, neck_share, angles, points, normals):
+    """Turn ``points`` (V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes."""
+    axes = turn_axes(angles)
+    turn_head(points, neck_share, axes, angles)
+    for side in range(2):
+        first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
+        turn_directions(normals[first:last], axes)
+
+
+# fmt: off
+@kernel(
+    "f8[:,:], i8[:], f8[:,:], f8[:], "  # who and how
+    "i8[:], f8[:,:], f8[:], "  # lips
+    "f8[:], f8[:], f8, f8[:,:], "  # jaw
+    "f8[:,:], i8[:,:,:], f8[:], f8[:,:], "  # contacts
+    "i8[:,:], f8[:,:], f8[:,:], f8, "  # lids
+    "i8[:], f8[:], "  # skin, and what rests
+    "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
+    "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
+    "i8[:,:,:], f8[:,:,:], f8[:], "  # brows
+    "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
+    "b1[:], f8[:], f8[:,:], "  # inside of the mouth
+    "i8, f8[:], "  # lip's edge, neck
+    "f8[:,:], f8[:,:], f8[:,:,:], "  # scratch
+    "f8[:,:,:], f8[:,:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
+)
+def pose_heads(
+    controls, parts, balls, kappa_deg,
+    lips, lip_regions, tuck_share,
+    jaw_axis, jaw_share, open_angle_deg, jaw_residual,
+    bridge, contact_numbers, contact_shares, contact_gaps,
+    lid_numbers, lid_polar, lid_rest, rest_opening,
+    source, rest,
+    steps, circle, hexagon, corners,
+    lash_index, lash_weight, lash_reach,
+    brow_index, brow_weight, brow_offset,
+    quads, brow_vertices, brow_starts, brow_quads,
+    carried, tip_share, chin,
+    lip_edge, neck_share,
+    gaze, radii, scratch,
+    skins, points, flat, normals, colors,
+):
+    """Fill the points of N heads, and the normals and shadows of as many as there is room for.
+
+    Args:
+        controls: (N, D) values of ``CONTROLS``.
+        parts: first vertex of each of ``PARTS``.
+        balls: (2, 4) m, centre and radius; kappa_deg: of ``aim_eyes``.
+        lips: lip_regions, tuck_share, jaw, contacts, lids: of ``deform_skin``.
+        source: (K,) vertex of the skin of each of the first K vertices.
+        rest: (3 R,) m, at rest, of the vertices from the first of the teeth on.
+        steps: circle, hexagon, corners: of ``place_eyes``.
+        lash_index: and what follows: of ``place_hairs``.
+        carried: tip_share, chin: of ``place_inside``.
+        lip_edge: of ``darken``.
+        neck_share: of ``turn_all``.
+        gaze: (2, 3), radii (7, 2), scratch (2, S, 3): overwritten.
+        skins: (N, S, 3) m with their moves; changed.
+        points: (N, V, 3) m, filled.
+        flat: (N, 3 V), the same memory: a run of numbers is copied several at a time.
+        normals: (1 or N, V, 3) of the eyes, filled; a single one again and again.
+        colors: (0 or N, V, 3), darkened by shadows.
+    """
+    # fmt: on
+    for frame in range(len(controls)):
+        c, skin, out, around = controls[frame], skins[frame], points[frame], normals[min(frame, len(normals) - 1)]
+        angles = c[TURN] * DEG, c[NOD] * DEG, c[TILT] * DEG
+        aim_eyes(c, balls, kappa_deg, angles, gaze)
+        jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
+        contacts = bridge, contact_numbers, contact_shares, contact_gaps
+        lids = lid_numbers, lid_polar, lid_rest, rest_opening
+        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch)
+        for v in range(len(source)):
+            for axis in range(3):
+                out[v, axis] = skin[source[v], axis]
+        run = flat[frame, 3 * parts[TEETH] :]
+        for i in range(len(rest)):
+            run[i] = rest[i]
+        place_eyes(c, skin, gaze, parts, balls, (steps, circle, hexagon, corners), angles, radii, out, around)
+        lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
+        under = quads, brow_vertices, brow_starts, brow_quads
+        place_hairs(skin, parts, balls, lashes, brows, under, scratch[0], out)
+        place_inside(c, parts, carried, tip_share, jaw_axis, chin, out)
+        if frame < len(colors):
+            darken(parts, balls, lip_edge, out, colors[frame])
+        if angles != (0.0, 0.0, 0.0):
+            turn_all(parts, neck_share, angles, out, around)
