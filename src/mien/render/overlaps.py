@@ -20,7 +20,7 @@ RASTER = 1536
 """Samples along the longer side of a picture of any size."""
 
 CHUNK = 1 << 20
-"""About as many samples are looked at together, so that memory stays bounded."""
+"""About as many samples are looked at together: what is needed on the way to them is not held for all at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,19 +40,19 @@ def find_overlaps(pieces: Pieces, size_px: tuple[int, int]) -> Overlaps:
     """Who hides whom, among those pieces that are seen at all, in a picture of that size."""
     scale = RASTER / max(size_px)
     width, height = (max(1, round(side * scale)) for side in size_px)
-    raster = _Raster(pieces, scale, width, height)
+    samples = list(_Raster(pieces, scale, width, height).samples())
     count = len(pieces.polygon)
     nearest = np.zeros(width * height)
-    for place, _, nearness in raster.samples():
+    for place, _, nearness in samples:
         np.maximum.at(nearest, place, nearness)
     winner = np.full(width * height, count)
-    for place, piece, nearness in raster.samples():
+    for place, piece, nearness in samples:
         hit = nearness == nearest[place]
         np.minimum.at(winner, place[hit], piece[hit])
     shown = np.zeros(count + 1, dtype=bool)
     shown[winner] = True
     pairs = [np.zeros(0, dtype=np.int64)]
-    for place, piece, _ in raster.samples():
+    for place, piece, _ in samples:
         above = winner[place]
         pairs.append((above * count + piece)[(above != piece) & shown[piece]])
     pair, amount = np.unique(np.concatenate(pairs), return_counts=True)
@@ -75,15 +75,16 @@ class _Raster:
 
     def samples(self) -> Iterator[tuple[Ints, Ints, Floats]]:
         """Place on the raster, piece and 1 / depth of all samples, some at a time."""
-        along, down = self._slopes()
         triangle, row, first, lengths = self._spans()
+        along, down = (slope[triangle] for slope in self._slopes())
+        top = self._corners[triangle, 0]
+        start = top[:, 2] + (first + 0.5 - top[:, 0]) * along + (row + 0.5 - top[:, 1]) * down
+        place, piece = row * self._width + first, self._owner[triangle]
         for spans in _runs(np.cumsum(lengths) // CHUNK):
             length = lengths[spans]
-            column = np.repeat(first[spans], length) + count_up(length)
-            line, owner = np.repeat(row[spans], length), np.repeat(triangle[spans], length)
-            top = self._corners[owner, 0]
-            nearness = top[:, 2] + (column + 0.5 - top[:, 0]) * along[owner] + (line + 0.5 - top[:, 1]) * down[owner]
-            yield line * self._width + column, self._owner[owner], nearness
+            step = count_up(length)
+            nearness: Floats = np.repeat(start[spans], length) + step * np.repeat(along[spans], length)
+            yield np.repeat(place[spans], length) + step, np.repeat(piece[spans], length), nearness
 
     def _spans(self) -> tuple[Ints, Ints, Ints, Ints]:
         """Triangle, row, first column and length of every run of samples."""
