@@ -78,6 +78,11 @@ def _explain(error: Exception) -> int:
         error = full_disk_error(error.filename or "temporary files")
     if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
         error = MienError(f"{error.filename}: the system takes no such name ({error.strerror}) — give a shorter one")
+    if isinstance(error, MemoryError):
+        error = MienError(
+            "there is not enough memory for this — a smaller --size needs less; a picture takes about 12 bytes a "
+            "pixel while it is drawn and written, 3 GB at 16384x16384"
+        )
     if isinstance(error, MienError):
         tell(f"mien: {error}")
         return MISTAKE

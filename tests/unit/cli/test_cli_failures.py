@@ -27,7 +27,9 @@ def wait_for_partial(folder: Path, process: subprocess.Popen[bytes], least_bytes
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize(("out", "old"), [("a.mp4", "a.mp4"), ("a.webm", "a.webm"), ("frames", "frames/frame_0000.png")])
+@pytest.mark.parametrize(
+    ("out", "old"), [("a.mp4", "a.mp4"), ("a.webm", "a.webm"), ("frames", "frames/frame_0000.png")]
+)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupting_leaves_everything_as_it_was(tmp_path: Path, out: str, old: str, number: signal.Signals) -> None:
     (tmp_path / "long.spec").write_text(LONG)

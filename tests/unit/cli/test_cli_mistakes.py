@@ -56,7 +56,10 @@ MISTAKES = {
     "no size": (["say", "Hello", "--size", "0", "-o", "a.mp4"], "1 to 16384"),
     "transparent film": (["say", "Hello", "--background", "transparent", "-o", "a.mp4"], "write .webm, .mov"),
     "subtitles of no kind": (["say", "Hello", "--subtitles", "brun", "-o", "a.mp4"], "did you mean 'burn'"),
-    "subtitles of another suffix": (["say", "Hello", "--subtitles", "a.txt", "-o", "a.mp4"], "did you mean '.vtt' or '.srt'"),
+    "subtitles of another suffix": (
+        ["say", "Hello", "--subtitles", "a.txt", "-o", "a.mp4"],
+        "did you mean '.vtt' or '.srt'",
+    ),
     "subtitles nowhere": (["say", "Hello", "--subtitles", "no/a.srt", "-o", "a.mp4"], "mkdir -p no"),
     "subtitles of subtitles": (["say", "Hello", "--subtitles", "a.srt", "-o", "a.srt"], "asked for twice"),
     "subtitles in a sound": (["say", "Hello", "--subtitles", "burn", "-o", "a.wav"], "no pictures"),
@@ -148,3 +151,12 @@ def test_full_temporary_storage_is_the_users_to_mend(
     monkeypatch.setattr("mien.api.face_names", fail)
     assert main(["faces"]) == 2
     assert "disk is full" in capfd.readouterr().err
+
+
+def test_too_little_memory_is_no_fault(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+    def fail() -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("mien.api.face_names", fail)
+    assert main(["faces"]) == 2
+    assert "a smaller --size needs less" in capfd.readouterr().err
