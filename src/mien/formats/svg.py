@@ -121,10 +121,12 @@ def _path(path: Path, contours: list[NDArray[np.float64]], decimals: int, seam: 
 
 def _thickness(outline: NDArray[np.float64]) -> float:
     """How wide a thin polygon (n, 2) is: twice its area over its circumference."""
-    x, y = outline.T
-    along = np.roll(outline, -1, axis=0) - outline
-    doubled_area = abs(float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()))
-    return doubled_area / max(float(np.sqrt(along[:, 0] ** 2 + along[:, 1] ** 2).sum()), 1e-9)
+    doubled_area = circumference = 0.0
+    corners = outline.tolist()
+    for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True):
+        doubled_area += ax * by - bx * ay
+        circumference += math.sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay))
+    return abs(doubled_area) / max(circumference, 1e-9)
 
 
 def _background(scene: Scene) -> Iterator[str]:

@@ -38,8 +38,8 @@ class Overlaps:
 
 def find_overlaps(pieces: Pieces, size_px: tuple[int, int]) -> Overlaps:
     """Who hides whom, among those pieces that are seen at all, in a picture of that size."""
-    scale = RASTER / max(size_px)
-    width, height = (max(1, round(side * scale)) for side in size_px)
+    width, height = (max(1, round(side * RASTER / max(size_px))) for side in size_px)
+    scale = (width / size_px[0], height / size_px[1])
     samples = list(_Raster(pieces, scale, width, height).samples())
     count = len(pieces.polygon)
     nearest = np.zeros(width * height)
@@ -63,11 +63,11 @@ def find_overlaps(pieces: Pieces, size_px: tuple[int, int]) -> Overlaps:
 class _Raster:
     """The triangles of pieces, and the samples that they cover."""
 
-    def __init__(self, pieces: Pieces, scale: float, width: int, height: int) -> None:
+    def __init__(self, pieces: Pieces, scale: tuple[float, float], width: int, height: int) -> None:
         fans = np.diff(pieces.starts) - 2
         first = np.repeat(pieces.starts[:-1], fans)
         second = first + 1 + count_up(fans)
-        triangles = (pieces.corners * (scale, scale, 1.0))[np.stack([first, second, second + 1], axis=1)]
+        triangles = (pieces.corners * (*scale, 1.0))[np.stack([first, second, second + 1], axis=1)]
         downwards = np.argsort(triangles[:, :, 1], axis=1, kind="stable")
         self._corners: Floats = np.take_along_axis(triangles, downwards[:, :, None], axis=1)
         self._owner = np.repeat(np.arange(len(fans)), fans)
