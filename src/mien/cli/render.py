@@ -34,6 +34,8 @@ def render(
 ) -> None:
     """Draw one pose of a face: .png, .jpg, .svg (one shade a polygon), or its mesh: .obj.
 
+    An SVG is subdivided once, and pictures on a sheet are 256 pixels wide, unless you say otherwise.
+
     \b
     mien render head --set jaw.rotation=8 -o open.png
     mien render head --preset smile --view side --size 512 -o smile.jpg
@@ -63,7 +65,7 @@ def render(
     subject = api.load_face(face)
     pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
     stages = Stages(quiet)
-    if kind == "svg" and shading == "smooth":
+    if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
         stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")
     what = _write(out, kind, sheet, subject, pose, scene, threads, stages)
     stages.say(f"{out}: {what}; done in {format_time(stages.elapsed_s)}")
