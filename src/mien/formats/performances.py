@@ -260,12 +260,11 @@ def draw_frames(
     number: int | None = None
     with Renderer(scene, threads or default_threads()) as renderer:
         for frame, pose in enumerate(timeline.poses(face.parameters, rate)):
-            moved = values is None or not np.array_equal(pose.values, values)
-            if moved:
-                drawn, values = renderer.draw(face, pose), pose.values
             before, number = number, None if burner is None else burner.at(time_of(float(frame), rate))
-            if moved or number != before:
-                shown = drawn if burner is None or number is None else burner.burn(drawn)
+            if values is None or number != before or not np.array_equal(pose.values, values):
+                shown, values = renderer.draw(face, pose), pose.values
+                if burner is not None and number is not None:
+                    burner.burn(shown)
             yield shown
 
 

@@ -22,7 +22,9 @@ GREY = np.full((SIZE[1], SIZE[0], 4), 128, dtype=np.uint8)
 def burn(*lines: str, picture: np.ndarray = GREY) -> np.ndarray:
     burner = Burner([Subtitle(0.0, 1.0, lines)], (picture.shape[1], picture.shape[0]))
     assert burner.at(0.5) == 0
-    return burner.burn(picture)
+    out = picture.copy()
+    burner.burn(out)
+    return out
 
 
 def box(pixels: np.ndarray) -> tuple[int, int, int, int]:
@@ -38,7 +40,6 @@ def test_letters_are_white_with_a_dark_edge_and_the_rest_is_untouched() -> None:
     assert out[top : bottom + 1, left : right + 1, :3].min() == 0
     assert out[(top + bottom) // 2, left, :3].max() < 128
     assert (out[:top] == 128).all()
-    assert (GREY == 128).all()
 
 
 @pytest.mark.parametrize("lines", [("Gypsy",), ("A much longer line of nearly forty-one chars", "and one more")])
