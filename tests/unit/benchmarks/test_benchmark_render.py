@@ -81,3 +81,10 @@ def test_the_form_is_closed_and_turns_its_outside_outwards(monkeypatch, size, ve
     assert 0.003 < volume < 0.006
     assert abs((form.normals**2).sum(axis=2) - 1.0).max() < 1e-5
     assert (form.points[0] != form.points[1]).any()
+
+
+def test_the_steps_of_a_start_are_timed():
+    done = subprocess.run([sys.executable, BENCHMARKS / "first_steps.py"], capture_output=True, text=True, check=True)
+    rows = [line.split("|")[1:-1] for line in done.stdout.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) >= 12
+    assert all(float(wall) >= 0.0 and float(work) >= 0.0 for _, wall, work in rows)
