@@ -37,6 +37,7 @@ class Codec:
         voice_bits_per_s: how much it may write; 0 where that is not a choice.
         even: whether odd sides are made even, by showing the last row or column twice.
         spaced: whether every picture says for how long it stays, so that equal ones are always written once.
+        ticks_per_s: in which its times go; 0 where one tick is one frame.
         least_side_px: shortest side.
         most_side_px: longest side.
         most_pixels: width times height.
@@ -57,6 +58,7 @@ class Codec:
     voice_bits_per_s: int = 0
     even: bool = False
     spaced: bool = False
+    ticks_per_s: int = 0
     least_side_px: int = 1
     most_side_px: int = 16384
     most_pixels: int = 16384 * 16384
@@ -127,6 +129,7 @@ CODECS: tuple[Codec, ...] = (
         clear_pixels="pal8",
         container_options={"loop": "0"},
         spaced=True,
+        ticks_per_s=100,
         fps_high=50.0,
     ),
     Codec(
@@ -148,6 +151,7 @@ CODECS: tuple[Codec, ...] = (
         clear_pixels="bgra",
         options={"quality": "90", "compression_level": "2"},
         spaced=True,
+        ticks_per_s=1000,
         most_side_px=16383,
     ),
 )

@@ -20,11 +20,11 @@ from mien.core import MienError, Sound
 from .atomic import full_disk_error, is_full_disk, writing
 from .codecs import Codec, find_codec
 from .film_apng import ApngFilm
-from .film_frames import make_frame
+from .film_frames import make_frame, make_frame_in_colors
 from .film_notes import append_comment
-from .film_palette import TICKS_PER_S, Palette
 from .film_sound import SoundStream
 from .film_webp import WebpFilm
+from .palette import Quantiser
 from .pipeline import runs
 from .rates import check_film, check_rate
 
@@ -181,9 +181,8 @@ class _ContainerFilm:
     ) -> None:
         self._container, self._rate = container, rate
         self._layout = codec.clear_pixels if transparent else codec.pixels
-        self._palette = Palette(size_px, transparent) if self._layout == "pal8" else None
-        # A palette is chosen for time in ticks of a GIF; all others count frames.
-        self._tick = Fraction(1, TICKS_PER_S) if self._palette else 1 / rate
+        self._quantiser = Quantiser(transparent) if self._layout == "pal8" else None
+        self._tick = 1 / Fraction(codec.ticks_per_s or rate)
         self._stream = _add_pictures(container, codec, rate, size_px, transparent)
         self._voice = SoundStream(container, sound, codec) if sound is not None else None
         self._last: tuple[Pixels, VideoFrame] | None = None
@@ -204,8 +203,8 @@ class _ContainerFilm:
     def _make(self, pixels: Pixels) -> VideoFrame:
         """The frame of a picture; that of the one before again, if that is what is shown."""
         if self._last is None or self._last[0] is not pixels:
-            if self._palette:
-                frame = self._palette.reduce(make_frame(pixels, "rgba"))
+            if self._quantiser:
+                frame = make_frame_in_colors(pixels, self._quantiser)
             else:
                 frame = make_frame(pixels, self._layout)
             self._last = pixels, frame

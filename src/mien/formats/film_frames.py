@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from av.video.frame import VideoFrame
@@ -10,6 +11,7 @@ from av.video.plane import VideoPlane
 from numpy.typing import NDArray
 
 from . import yuv
+from .palette import Quantiser
 
 Pixels = NDArray[np.uint8]
 
@@ -20,6 +22,16 @@ def make_frame(pixels: Pixels, layout: str) -> VideoFrame:
     Layouts of 4:2:0 get even sides: the last row or column is shown twice.
     """
     return _MAKERS[layout](pixels)
+
+
+def make_frame_in_colors(pixels: Pixels, quantiser: Quantiser) -> VideoFrame:
+    """A frame of (H, W, 4) pixels in 256 colours of its own."""
+    numbers, colors = quantiser.reduce(yuv.to_words(pixels))
+    frame = _blank(numbers, "pal8")
+    _codes(frame.planes[0], np.uint8)[:, : numbers.shape[1]] = numbers
+    # A colour is one number, blue in the lowest eight bits.
+    np.frombuffer(memoryview(frame.planes[1]), np.uint8).reshape(-1, 4)[:] = colors[:, [2, 1, 0, 3]]
+    return frame
 
 
 def _make_420(pixels: Pixels) -> VideoFrame:
@@ -82,7 +94,7 @@ def _even(pixels: Pixels) -> Pixels:
     return pixels
 
 
-def _blank(words: yuv.Words, layout: str) -> VideoFrame:
+def _blank(words: NDArray[Any], layout: str) -> VideoFrame:
     height, width = words.shape
     return VideoFrame(width, height, layout)
 

@@ -33,8 +33,6 @@ REPLACE = 0x02
 MOST_BYTES = 2**32 - 2
 """A file says its own length in 32 bits."""
 
-MS = 1000
-
 
 class WebpFilm:
     """An animation that is shown again and again."""
@@ -60,7 +58,7 @@ class WebpFilm:
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         """Adds a picture that stays for ``count`` frames from frame ``start`` on."""
-        begin, end = (round(number * MS / self._rate) for number in (start, start + count))
+        begin, end = (round(number * self._codec.ticks_per_s / self._rate) for number in (start, start + count))
         picture = b"".join(
             _chunk(name, data)
             for name, data in _chunks(self._encoder.encode(pixels))

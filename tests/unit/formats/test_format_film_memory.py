@@ -1,4 +1,4 @@
-"""Memory does not grow with the length of a film: a process of its own writes two, and says how much the longer took."""
+"""Memory does not grow with the length of a film: a process of its own writes two and says what the longer one took."""
 
 from __future__ import annotations
 
