@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise, takewhile
@@ -206,16 +207,14 @@ def _divide(pieces: Sequence[_Piece], guide: Guide) -> list[int]:
 
     Source: Knuth and Plass 1981, "Breaking paragraphs into lines": all breaks of a paragraph are chosen together.
     """
-    breaks = [_break_cost(one, two, guide) for one, two in pairwise(pieces)] + [0.0] * bool(pieces)
+    measured = _Measured(pieces, guide)
     best, before = [0.0], [0]
     for last in range(1, len(pieces) + 1):
         ways: list[tuple[float, int]] = []
-        length = -1
         for first in range(last - 1, -1, -1):
-            length += len(pieces[first].text) + 1
-            if first < last - 1 and not _fits(pieces[first:last], length, guide.line_length):
+            if first < last - 1 and not measured.fits(first, last):
                 break
-            ways.append((best[first] + _run_cost(pieces, breaks, first, last, length, guide), -first))
+            ways.append((best[first] + measured.cost(first, last), -first))
         cost, place = min(ways)
         best.append(cost)
         before.append(-place)
@@ -225,40 +224,49 @@ def _divide(pieces: Sequence[_Piece], guide: Guide) -> list[int]:
     return ends[::-1]
 
 
-def _fits(pieces: Sequence[_Piece], length: int, line_length: int) -> bool:
-    """Whether pieces of ``length`` characters in all fit into two lines."""
-    return length <= line_length or (length <= 2 * line_length + 1 and bool(_line_ends(pieces, line_length)))
+class _Measured:
+    """Pieces with sums that make the cost of each run of them quick to tell."""
+
+    def __init__(self, pieces: Sequence[_Piece], guide: Guide) -> None:
+        self._pieces, self._guide = pieces, guide
+        self._places = _places(pieces)
+        self._breaks = [_break_cost(one, two, guide) for one, two in pairwise(pieces)] + [COSTS.sentence]
+        self._sentences = [0, *accumulate(cost <= COSTS.sentence for cost in self._breaks)]
+
+    def length(self, first: int, last: int) -> int:
+        """Characters of a run on one line."""
+        return self._places[last] - self._places[first] - 1
+
+    def fits(self, first: int, last: int) -> bool:
+        """Whether a run fits into two lines: with as much as possible on the first, no more than a line is left."""
+        most = self._guide.line_length
+        second = bisect_right(self._places, self._places[first] + most + 1) - 1
+        return second >= last or (second > first and self.length(second, last) <= most)
+
+    def cost(self, first: int, last: int) -> float:
+        """Of a run as one subtitle, and of the break at its end."""
+        guide, start_s = self._guide, self._pieces[first].start_s
+        room_s = self._pieces[last].start_s - guide.gap_s - start_s if last < len(self._pieces) else math.inf
+        spoken_s = self._pieces[last - 1].end_s - start_s
+        return (
+            COSTS.each
+            + self._breaks[last - 1]
+            + COSTS.run_on * (self._sentences[last - 1] - self._sentences[first])
+            + COSTS.hurried * max(0.0, 1.0 - room_s / guide.least_s)
+            + COSTS.crowded * (self.length(first, last) / (2.0 * guide.line_length)) ** 2
+            + (COSTS.endless if spoken_s > guide.most_s else 0.0)
+        )
 
 
-def _line_ends(pieces: Sequence[_Piece], line_length: int) -> list[int]:
-    """After how many pieces the first of two lines may end so that neither is too long."""
-    ends = list(accumulate(len(piece.text) + 1 for piece in pieces))
-    whole = ends[-1]
-    return [k for k, end in enumerate(ends[:-1], 1) if end - 1 <= line_length and whole - end - 1 <= line_length]
-
-
-def _run_cost(
-    pieces: Sequence[_Piece], breaks: Sequence[float], first: int, last: int, length: int, guide: Guide
-) -> float:
-    """Of a subtitle of some pieces, ``length`` characters in all, and of the break at its end."""
-    start_s = pieces[first].start_s
-    room_s = pieces[last].start_s - guide.gap_s - start_s if last < len(pieces) else math.inf
-    spoken_s = pieces[last - 1].end_s - start_s
-    inside = sum(cost <= COSTS.sentence for cost in breaks[first : last - 1])
-    return (
-        COSTS.each
-        + breaks[last - 1]
-        + COSTS.run_on * inside
-        + COSTS.hurried * max(0.0, 1.0 - room_s / guide.least_s)
-        + COSTS.crowded * (length / (2.0 * guide.line_length)) ** 2
-        + (COSTS.endless if spoken_s > guide.most_s else 0.0)
-    )
+def _places(pieces: Sequence[_Piece]) -> list[int]:
+    """Where each piece begins in a line of all of them, and where one more would."""
+    return [0, *accumulate(len(piece.text) + 1 for piece in pieces)]
 
 
 def _break_cost(one: _Piece, two: _Piece, guide: Guide) -> float:
     """Of a break between two pieces."""
     paused = two.start_s - one.end_s >= guide.pause_s
-    last = one.text.rstrip(_CLOSERS)[-1:]
+    last = (one.text.rstrip(_CLOSERS) or " ")[-1]
     titled = last == "." and one.plain in TITLES
     if last in _SENTENCE_MARKS and not titled and (paused or last != "."):
         return COSTS.sentence
@@ -271,16 +279,21 @@ def _break_cost(one: _Piece, two: _Piece, guide: Guide) -> float:
 
 def _lines(pieces: Sequence[_Piece], guide: Guide) -> tuple[str, ...]:
     """One line if it is short enough, else two, broken where it disturbs least, and rather the second one longer."""
-    whole = " ".join(piece.text for piece in pieces)
+    whole, places = " ".join(piece.text for piece in pieces), _places(pieces)
     if len(whole) <= guide.line_length or len(pieces) == 1:
         return (whole,)
 
-    def cost(end: int) -> tuple[float, int]:
-        first, second = (len(" ".join(piece.text for piece in part)) for part in (pieces[:end], pieces[end:]))
-        return _break_cost(pieces[end - 1], pieces[end], guide) + COSTS.uneven * abs(first - second) / len(whole), -end
+    def cost(second: int) -> tuple[float, int]:
+        uneven = abs(2 * places[second] - places[-1]) / places[-1]
+        return _break_cost(pieces[second - 1], pieces[second], guide) + COSTS.uneven * uneven, second
 
-    end = min(_line_ends(pieces, guide.line_length), key=cost)
-    return " ".join(piece.text for piece in pieces[:end]), " ".join(piece.text for piece in pieces[end:])
+    fitting = (
+        second
+        for second in range(1, len(pieces))
+        if max(places[second], places[-1] - places[second]) <= guide.line_length + 1
+    )
+    middle = places[min(fitting, key=cost)]
+    return whole[: middle - 1], whole[middle:]
 
 
 def _time(runs: Sequence[Sequence[_Piece]], length_s: float, guide: Guide) -> Iterator[Subtitle]:
