@@ -29,6 +29,7 @@ SETTINGS = "settings"
 
 KERNELS = (
     "mien.formats.yuv",
+    "mien.render.bands",
     "mien.render.lighting",
     "mien.render.placing",
     "mien.render.refining",

@@ -14,9 +14,9 @@ from .parameters import Pose
 
 Vector = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
-Shading = Literal["smooth", "polygon", "wire"]
+Shading = Literal["smooth", "smooth+", "polygon", "wire"]
 
-SHADINGS: tuple[Shading, ...] = ("smooth", "polygon", "wire")
+SHADINGS: tuple[Shading, ...] = ("smooth", "smooth+", "polygon", "wire")
 
 CENTRE: Vector = (0.0, -0.026, 0.0)
 """What a picture of a whole head is centred on, metres."""
@@ -61,7 +61,8 @@ class Scene:
         ambient: linear RGB that falls from below and from above.
         cosine_power: whole power of the cosine in the diffuse term; Parke's "cosine power".
         gloss: factor on the highlights of all materials.
-        shading: smooth (interpolated), polygon (one shade a polygon) or wire.
+        shading: smooth (shades interpolated), smooth+ (normals interpolated, light on every pixel), polygon (one
+            shade a polygon) or wire.
         subdivide: Catmull-Clark steps, 0..2.
         target: what the eyes look at, m, where the pose says nothing; None is the viewer.
     """

@@ -46,15 +46,15 @@ class Camera:
     height: int
 
     @classmethod
-    def of(cls, scene: Scene, oversampling: int = 1) -> Camera:
-        """The camera of a scene, its raster ``oversampling`` times as fine as the picture."""
+    def of(cls, scene: Scene) -> Camera:
+        """The camera of a scene."""
         forward = _unit(_minus(scene.at, scene.position))
         # Who looks straight up or down has no horizon: then the top of the picture is the back of the head's frame.
         level = abs(forward[0]) + abs(forward[2]) > 1e-6
         right = _unit(_cross(forward, (0.0, 1.0, 0.0) if level else (0.0, 0.0, -1.0)))
         half = math.radians(scene.fov_deg) / 2.0
         focal = float(exact.cos(half)) / float(exact.sin(half))
-        width, height = (side * oversampling for side in scene.size_px)
+        width, height = scene.size_px
         scale = focal * min(width, height) / 2.0
         return cls(scene.position, right, _cross(right, forward), forward, scale, width, height)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mien.core import Drawing, Path, Scene
 
-from .pixels import background_rows, straight
+from .pixels import background, encode, to_samples
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def draw_drawing(drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
     scale = min(width / drawing.size[0], height / drawing.size[1])
     left = (width - scale * drawing.size[0]) / 2.0
     bottom = (height + scale * drawing.size[1]) / 2.0
-    picture = np.repeat(background_rows(scene)[:, None, :].astype(np.float64), width, axis=1)
+    picture = np.repeat(background(scene)[:, None, :], width, axis=1)
     for path in drawing.paths:
         contours = [
             np.stack([left + contour[:, 0] * scale, bottom - contour[:, 1] * scale], axis=1)
@@ -33,7 +33,7 @@ def draw_drawing(drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
         ]
         if contours:
             _paint(picture, contours, path)
-    return straight(picture.astype(np.float32))
+    return encode(to_samples(picture))
 
 
 def _paint(picture: Floats, contours: list[Floats], path: Path) -> None:

@@ -1,13 +1,15 @@
 """The light of ``shade``, compiled: the same formulas in the same order, so that every number is the same."""
 
 # Numba finds the types of arguments by itself, so that the functions below name none.
-# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+# mypy: allow-untyped-defs, allow-untyped-calls, no-check-untyped-defs
 
 from __future__ import annotations
 
 import numpy as np
 
 from mien.compiling import kernel
+
+from .pixels import ONE
 
 _TINY = 2.2250738585072014e-308
 
@@ -38,7 +40,8 @@ def sum_normals(points, corners, starts, first, last, normals, facing, viewer):
 
 
 @kernel()
-def _scale(x, y, z):
+def unit_scale(x, y, z):
+    """What makes a vector one of length 1; a vector without length stays as it is."""
     return 1.0 / np.sqrt(max((x * x + y * y) + z * z, _TINY))
 
 
@@ -53,15 +56,71 @@ def _whole_power(base, power):
     return result
 
 
+@kernel()
+def light_at(x, y, z, nx, ny, nz, ex, ey, ez, strength, power, lamps, ambient, cosine_power):
+    """Diffuse light and highlight, RGB each, at a place with a unit normal, seen from the direction e.
+
+    Args:
+        x, y, z: m.
+        nx, ny, nz: of length 1.
+        ex, ey, ez: towards the viewer, of any length.
+        strength: of the highlight.
+        power: its sharpness.
+        lamps: (L, 8) place, colour, wrap, 1 / (1 + wrap).
+        ambient: (2, 3) light from below and from above.
+        cosine_power: whole power of the diffuse term.
+    """
+    up = (ny + 1.0) * 0.5
+    dr = ambient[0, 0] + (ambient[1, 0] - ambient[0, 0]) * up
+    dg = ambient[0, 1] + (ambient[1, 1] - ambient[0, 1]) * up
+    db = ambient[0, 2] + (ambient[1, 2] - ambient[0, 2]) * up
+    hr, hg, hb = 0.0, 0.0, 0.0
+    if strength > 0.0:
+        scale = unit_scale(ex, ey, ez)
+        ex, ey, ez = ex * scale, ey * scale, ez * scale
+    for i in range(len(lamps)):
+        lx, ly, lz = lamps[i, 0] - x, lamps[i, 1] - y, lamps[i, 2] - z
+        scale = unit_scale(lx, ly, lz)
+        lx, ly, lz = lx * scale, ly * scale, lz * scale
+        cosine = (nx * lx + ny * ly) + nz * lz
+        amount = max((cosine + lamps[i, 6]) * lamps[i, 7], 0.0)
+        if cosine_power > 1:
+            amount = _whole_power(amount, cosine_power)
+        dr += lamps[i, 3] * amount
+        dg += lamps[i, 4] * amount
+        db += lamps[i, 5] * amount
+        if strength > 0.0 and cosine > 0.0:
+            mx, my, mz = lx + ex, ly + ey, lz + ez
+            scale = unit_scale(mx, my, mz)
+            shine = (nx * (mx * scale) + ny * (my * scale)) + nz * (mz * scale)
+            shine = _whole_power(max(shine, 0.0), power) * strength
+            hr += lamps[i, 3] * shine
+            hg += lamps[i, 4] * shine
+            hb += lamps[i, 5] * shine
+    return dr, dg, db, hr, hg, hb
+
+
+@kernel("i8[:], i8[:], b1[:], i4[:,:], i4[:,:], i4[:,:], u1[:]")
+def choose_shades(triangles, polygon_of_triangle, facing, front, back, shade_of, needed):
+    """Fill ``shade_of`` (n, 3) for the n triangles, and set ``needed`` (N + M,) where a shade is one of them."""
+    for n in range(len(triangles)):
+        t = triangles[n]
+        shows_front = facing[polygon_of_triangle[t]]
+        for k in range(3):
+            shade = front[t, k] if shows_front else back[t, k]
+            shade_of[n, k] = shade
+            needed[shade] = 1
+
+
 @kernel(
-    "f8[:,:], i8[:], i8[:], f8[:,:], f8[:,:], f8[:,:], f8[:,:], f8[:], i8, "
-    "i8[:], i8[:], i8[:], b1[:], b1[:], f8[:], i8[:], i8[:], i8[:], i8, i8, f8[:,:], f8[:,:]"
+    "f8[:,:], i8[:], i8[:], f8[:,:], f8[:,:], f8[:,:], f8[:,:], f8[:], i8, i8[:], i8[:], i8[:], b1[:], b1[:], f8[:], "
+    "i8[:], i8[:], i8[:], u1[:], i8, i8, f8[:,:], f8[:,:]"
 )
 def light_nodes(
     points, corners, starts, normals, own_normals, lamps, ambient, viewer, cosine_power,
-    vertex, polygon, back, lit, own, gloss, power, sum_starts, sum_columns, first, last, diffuse, highlight,
+    vertex, polygon, back, lit, own, gloss, power, sum_starts, sum_columns, needed, first, last, diffuse, highlight,
 ):  # fmt: skip
-    """Fill ``diffuse`` and ``highlight`` (N + M, 3) for nodes first:last and their backs.
+    """Fill ``diffuse`` and ``highlight`` (N + M, 3) for nodes first:last and their backs, where they are needed.
 
     Args:
         points: (V, 3) m, of the polygons with ``corners`` and ``starts``.
@@ -69,18 +128,22 @@ def light_nodes(
         starts: as in the topology.
         normals: (F, 3) from ``sum_normals``.
         own_normals: (V, 3) normals of round parts.
-        lamps: (L, 7) place, colour, wrap.
-        ambient: (2, 3) light from below and from above.
+        lamps: of ``light_at``.
+        ambient: of ``light_at``.
         viewer: (4,) viewer's place and strength of all highlights.
-        cosine_power: whole power of the diffuse term.
+        cosine_power: of ``light_at``.
         vertex, polygon, back, lit, own, gloss, power: ``Plan.columns``.
         sum_starts, sum_columns: of the plan's ``normal_sum``.
+        needed: (N + M,) from ``choose_shades``.
         first: first node.
         last: behind the last node.
         diffuse: filled.
         highlight: filled.
     """
     for n in range(first, last):
+        behind = back[n]
+        if not (needed[n] or (behind >= 0 and needed[behind])):
+            continue
         x, y, z = 0.0, 0.0, 0.0
         nx, ny, nz = 0.0, 0.0, 0.0
         v = vertex[n]
@@ -103,42 +166,41 @@ def light_nodes(
                 nx += normals[f, 0]
                 ny += normals[f, 1]
                 nz += normals[f, 2]
-        scale = _scale(nx, ny, nz)
+        scale = unit_scale(nx, ny, nz)
         nx, ny, nz = nx * scale, ny * scale, nz * scale
         ex, ey, ez = viewer[0] - x, viewer[1] - y, viewer[2] - z
-        scale = _scale(ex, ey, ez)
-        ex, ey, ez = ex * scale, ey * scale, ez * scale
         for side in range(2):
             target = n
             if side == 1:
-                target = back[n]
-                if target < 0:
-                    break
+                target = behind
                 nx, ny, nz = -nx, -ny, -nz
-            strength = gloss[n] * viewer[3]
-            up = (ny + 1.0) * 0.5
-            dr = ambient[0, 0] + (ambient[1, 0] - ambient[0, 0]) * up
-            dg = ambient[0, 1] + (ambient[1, 1] - ambient[0, 1]) * up
-            db = ambient[0, 2] + (ambient[1, 2] - ambient[0, 2]) * up
-            hr, hg, hb = 0.0, 0.0, 0.0
-            for i in range(len(lamps)):
-                lx, ly, lz = lamps[i, 0] - x, lamps[i, 1] - y, lamps[i, 2] - z
-                scale = _scale(lx, ly, lz)
-                lx, ly, lz = lx * scale, ly * scale, lz * scale
-                cosine = (nx * lx + ny * ly) + nz * lz
-                amount = _whole_power(max((cosine + lamps[i, 6]) / (1.0 + lamps[i, 6]), 0.0), cosine_power)
-                dr += lamps[i, 3] * amount
-                dg += lamps[i, 4] * amount
-                db += lamps[i, 5] * amount
-                if strength > 0.0 and cosine > 0.0:
-                    mx, my, mz = lx + ex, ly + ey, lz + ez
-                    scale = _scale(mx, my, mz)
-                    shine = (nx * (mx * scale) + ny * (my * scale)) + nz * (mz * scale)
-                    shine = _whole_power(max(shine, 0.0), power[n]) * strength
-                    hr += lamps[i, 3] * shine
-                    hg += lamps[i, 4] * shine
-                    hb += lamps[i, 5] * shine
-            if not lit[n]:
-                dr, dg, db, hr, hg, hb = 1.0, 1.0, 1.0, 0.0, 0.0, 0.0
+            if target < 0 or not needed[target]:
+                continue
+            dr, dg, db, hr, hg, hb = 1.0, 1.0, 1.0, 0.0, 0.0, 0.0
+            if lit[n]:
+                dr, dg, db, hr, hg, hb = light_at(
+                    x, y, z, nx, ny, nz, ex, ey, ez, gloss[n] * viewer[3], power[n], lamps, ambient, cosine_power
+                )
             diffuse[target, 0], diffuse[target, 1], diffuse[target, 2] = dr, dg, db
             highlight[target, 0], highlight[target, 1], highlight[target, 2] = hr, hg, hb
+
+
+@kernel("f8[:,:], i8[:], i8[:], i8[:], i8[:], i8[:], u1[:], i8, i8, f8[:,:], f8[:,:], f8[:,:]")
+def tint_nodes(colors, corners, starts, vertex, polygon, back, needed, first, last, diffuse, highlight, values):
+    """Fill ``values`` (N + M, 3), own colour x diffuse + highlight, for nodes first:last, where they are needed."""
+    for n in range(first, last):
+        behind = back[n]
+        if not (needed[n] or (behind >= 0 and needed[behind])):
+            continue
+        for c in range(3):
+            if vertex[n] >= 0:
+                own = colors[vertex[n], c]
+            else:
+                start, end = starts[polygon[n]], starts[polygon[n] + 1]
+                own = colors[corners[start], c]
+                for k in range(start + 1, end):
+                    own += colors[corners[k], c]
+                own /= float(end - start)
+            values[n, c] = (own * diffuse[n, c] + highlight[n, c]) * ONE
+            if behind >= 0:
+                values[behind, c] = (own * diffuse[behind, c] + highlight[behind, c]) * ONE

@@ -1,4 +1,7 @@
-"""The last step: linear light to sRGB by table, the background, samples averaged to pixels with their alpha."""
+"""Samples, and the last step from them to pixels: by whole numbers and a table alone.
+
+A sample is four values: red, green, blue, linear and already multiplied by the fourth, coverage; each 0..``ONE``.
+"""
 
 from __future__ import annotations
 
@@ -9,72 +12,66 @@ from numpy.typing import NDArray
 
 from mien.core import Scene, exact
 
-Floats32 = NDArray[np.float32]
+Samples = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
 
-BUCKETS = 16384
-"""Steps of the table over 0..1: so many that no step holds two borders between codes, not even near black."""
+ONE = 16384
+"""The whole of a value: linear light 1, or full coverage. Near black, five steps of it are one of sRGB."""
+
+WHOLE = 65535
+"""The whole of a value that is no colour, where pictures are lit on every pixel."""
+
+POWER_STEP = 256
+"""What the sharpness of a highlight is multiplied by there; it is a whole number below 256."""
+
+OFFSETS = ((96, 32), (224, 96), (32, 160), (160, 224))
+"""Where the four samples of an edge lie in their pixel, x and y, 1/256.
+
+No two share a row or a column, so that an edge that is nearly level or upright has four steps and not two. Source: the
+rotated grid of graphics hardware.
+"""
 
 
 @cache
-def srgb_tables() -> tuple[Bytes, Floats32]:
-    """(BUCKETS + 1,) code at the lower end of each step, and (256,) linear value from which the next code is nearer.
-
-    Source: IEC 61966-2-1 (sRGB).
-    """
-    middles = [exact.srgb_to_linear((code + 0.5) / 255.0) for code in range(255)]
-    borders = np.array([*middles, np.inf], dtype=np.float32)
-    starts = np.arange(BUCKETS + 1, dtype=np.float32) / np.float32(BUCKETS)
-    return np.searchsorted(borders, starts, side="right").astype(np.uint8), borders
+def srgb_codes() -> Bytes:
+    """(ONE + 1,) nearest code of the middle of each linear step. Source: IEC 61966-2-1 (sRGB)."""
+    borders = np.array([exact.srgb_to_linear((code + 0.5) / 255.0) for code in range(255)])
+    middles = (np.arange(ONE + 1) + 0.5) / ONE
+    return np.searchsorted(borders, middles, side="right").astype(np.uint8)
 
 
-def encode(linear: Floats32) -> Bytes:
-    """sRGB codes 0..255 of linear values, any shape; each the nearest code."""
-    low, borders = srgb_tables()
-    clamped = np.minimum(np.maximum(linear, np.float32(0.0)), np.float32(1.0))
-    code = low[(clamped * np.float32(BUCKETS)).astype(np.int64)]
-    return (code + (clamped >= borders[code])).astype(np.uint8)
-
-
-def background_rows(scene: Scene) -> Floats32:
+def background(scene: Scene) -> NDArray[np.float64]:
     """(H, 4) linear RGBA behind each row of the picture, colour multiplied by alpha."""
     height = scene.size_px[1]
     up = 1.0 - (np.arange(height) + 0.5) / height
     bottom, top = (np.array(color) for color in scene.background)
     rgba = bottom + (top - bottom) * up[:, None]
     rgba[:, :3] *= rgba[:, 3:]
-    rows: Floats32 = rgba.astype(np.float32)
-    return rows
+    return rgba
 
 
-def resolve(samples: Floats32, covered: NDArray[np.bool_], behind: Floats32, oversampling: int) -> Bytes:
-    """(H, W, 4) sRGB picture with straight alpha out of a raster of linear samples.
-
-    Args:
-        samples: (H n, W n, 3) linear RGB.
-        covered: (H n, W n) whether a sample was drawn at all.
-        behind: (H, 4) from ``background_rows``.
-        oversampling: n, 1 or 2.
-    """
-    rows = np.repeat(behind, oversampling, axis=0)[:, None, :]
-    values = np.empty((*covered.shape, 4), dtype=np.float32)
-    values[..., :3] = np.where(covered[..., None], samples, rows[..., :3])
-    values[..., 3] = np.where(covered, np.float32(1.0), rows[..., 3])
-    if oversampling == 2:
-        upper, lower = values[0::2], values[1::2]
-        left, right = upper[:, 0::2] + upper[:, 1::2], lower[:, 0::2] + lower[:, 1::2]
-        values = (left + right) * np.float32(0.25)
-    return straight(values)
+def to_samples(linear: NDArray[np.float64]) -> Samples:
+    """Samples of linear RGBA 0..1, any shape."""
+    return (np.clip(linear, 0.0, 1.0) * ONE).astype(np.int64)
 
 
-def straight(values: Floats32) -> Bytes:
-    """(H, W, 4) sRGB codes with straight alpha of linear RGBA whose colour was multiplied by alpha."""
-    alpha = values[..., 3:]
-    clear = alpha <= np.float32(0.0)
-    color = values[..., :3] / np.where(clear, np.float32(1.0), alpha)
-    picture = np.empty(values.shape, dtype=np.uint8)
-    picture[..., :3] = encode(np.where(clear, np.float32(0.0), color))
-    picture[..., 3] = (np.minimum(alpha[..., 0], np.float32(1.0)) * np.float32(255.0) + np.float32(0.5)).astype(
-        np.uint8
+def average(samples: Samples) -> Samples:
+    """(..., 4) means of four samples (4, ..., 4), rounded to the nearest."""
+    return (samples.sum(axis=0) + 2) >> 2
+
+
+def encode(samples: Samples) -> Bytes:
+    """(..., 4) sRGB codes with straight alpha of samples (..., 4)."""
+    codes, cover = srgb_codes(), samples[..., 3:]
+    straight = np.minimum(samples[..., :3] * ONE // np.maximum(cover, 1), ONE)
+    color = codes[np.where((cover > 0) & (cover < ONE), straight, samples[..., :3])]
+    alpha = (cover * 255 + ONE // 2) // ONE
+    return np.concatenate([color, alpha.astype(np.uint8)], axis=-1)
+
+
+def to_words(samples: Samples) -> NDArray[np.uint64]:
+    """(...) samples (..., 4) as one number each, red in the lowest 16 bits."""
+    lanes = samples.astype(np.uint64)
+    return (
+        lanes[..., 0] | lanes[..., 1] << np.uint64(16) | lanes[..., 2] << np.uint64(32) | lanes[..., 3] << np.uint64(48)
     )
-    return picture

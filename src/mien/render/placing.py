@@ -1,13 +1,18 @@
 """What ``triangles.place_mesh`` says, compiled: the same formulas in the same order, so every number is the same."""
 
 # Numba finds the types of arguments by itself, so that the functions below name none.
-# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+# mypy: allow-untyped-defs, allow-untyped-calls, no-check-untyped-defs
 
 from __future__ import annotations
 
 import numpy as np
 
 from mien.compiling import kernel
+
+from .triangles import BACK, FRONT, HIDDEN
+
+CUT = 3
+"""Beside what ``triangles`` says of a side: the border of the picture cuts it."""
 
 
 @kernel("f8[:,:], f8[:,:], f8[:], f8[:], i8, i8, f8[:,:], u1[:], i4[:,:], f8[:]")
@@ -44,26 +49,40 @@ def place_points(points, axes, position, settings, first, last, view, codes, pla
         places[v, 1] = np.int32(np.rint(min(max(down * steps, -limit), limit)))
 
 
-@kernel("i8[:,:], u1[:], i4[:,:], b1[:], i8[:], i4[:,:], i8[:], i8[:]")
-def sort_out(triangles, codes, places, two_sided, whole, corners, cut, counts):
-    """Fill ``counts`` (2,): triangles that are wholly in the picture and seen, and those that its border cuts.
-
-    Their numbers go to the front of ``whole`` and ``cut``, the corners of the whole ones to that of ``corners``.
-    """
-    seen, crossing = 0, 0
+@kernel("i8[:,:], u1[:], i4[:,:], b1[:], u1[:]")
+def see_sides(triangles, codes, places, two_sided, sides):
+    """Fill ``sides`` (T,): what is seen of a triangle, CUT where the picture's border cuts it."""
     for t in range(triangles.shape[1]):
         a, b, c = triangles[0, t], triangles[1, t], triangles[2, t]
         if codes[a] | codes[b] | codes[c]:
-            if not (codes[a] & codes[b] & codes[c]):
-                cut[crossing] = t
-                crossing += 1
+            sides[t] = HIDDEN if codes[a] & codes[b] & codes[c] else CUT
             continue
         ax, ay = np.int64(places[a, 0]), np.int64(places[a, 1])
         bx, by = np.int64(places[b, 0]) - ax, np.int64(places[b, 1]) - ay
         cx, cy = np.int64(places[c, 0]) - ax, np.int64(places[c, 1]) - ay
         area = bx * cy - cx * by
-        if area < 0 or (area > 0 and two_sided[t]):
+        sides[t] = FRONT if area < 0 else (BACK if area > 0 and two_sided[t] else HIDDEN)
+
+
+@kernel("i8[:,:], i4[:,:], u1[:], i8[:], i8[:], i4[:,:], u1[:], i8[:]")
+def sort_out(triangles, neighbours, sides, whole, cut, corners, borders, counts):
+    """Fill ``counts`` (2,): triangles that are seen whole, and those that the picture's border cuts.
+
+    Their numbers go to the front of ``whole`` and ``cut``; corners and borders of the whole ones to that of theirs.
+    """
+    seen, crossing = 0, 0
+    for t in range(triangles.shape[1]):
+        side = sides[t]
+        if side == CUT:
+            cut[crossing] = t
+            crossing += 1
+        elif side != HIDDEN:
             whole[seen] = t
-            corners[seen, 0], corners[seen, 1], corners[seen, 2] = a, b, c
+            border = 0
+            for k in range(3):
+                corners[seen, k] = triangles[k, t]
+                beyond = neighbours[t, k]
+                border |= (1 if beyond < 0 or sides[beyond] != side else 0) << k
+            borders[seen] = border
             seen += 1
     counts[0], counts[1] = seen, crossing

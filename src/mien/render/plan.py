@@ -36,9 +36,10 @@ class Plan:
         triangle_back: (T, 3) shades of their corners seen from behind.
         lit: (N + M,) whether the light falls on it.
         gloss: (N + M,) strength of its highlight.
-        powers: sharpness of highlights, with the numbers of the glossy shades that have it.
+        power: (N + M,) sharpness of its highlight.
         two_sided: (F,) whether a polygon's back is drawn.
         triangle_two_sided: (T,) the same of triangles.
+        neighbours: (T, 3) triangle beyond the edge that follows each corner, where both are of one surface; else -1.
         columns: the same a node, for compiled code: vertex, polygon, back shade or -1, lit, round, gloss, power.
     """
 
@@ -53,15 +54,16 @@ class Plan:
     triangle_back: Ints32
     lit: NDArray[np.bool_]
     gloss: Floats
-    powers: tuple[tuple[int, Ints], ...]
+    power: Ints
     two_sided: NDArray[np.bool_]
     triangle_two_sided: NDArray[np.bool_]
+    neighbours: Ints32
     columns: tuple[NDArray[np.generic], ...]
 
 
 @lru_cache(maxsize=16)
-def plan_shading(topology: Topology, flat: bool) -> Plan:
-    """The plan of a topology; ``flat`` makes every polygon flat."""
+def plan_shading(topology: Topology, flat: bool, colored_by_polygon: bool = False) -> Plan:
+    """The plan of a topology; ``flat`` makes every polygon flat, and both that or a colour of its own set it apart."""
     vertices: list[Ints] = []
     polygons: list[Ints] = []
     rows: list[Ints] = []
@@ -100,7 +102,6 @@ def plan_shading(topology: Topology, flat: bool) -> Plan:
     gloss = np.array([part.material.gloss for part in topology.parts])[shade_material]
     power = np.array([part.material.gloss_power for part in topology.parts], dtype=np.int64)[shade_material]
     lit = np.array([part.material.lit for part in topology.parts], dtype=bool)[shade_material]
-    glossy = (gloss > 0.0) & lit
     behind = np.where(sided[material], back_node, -1)
     polygon, is_round = _join(polygons), own[material] & (vertex >= 0)
     return Plan(
@@ -115,11 +116,29 @@ def plan_shading(topology: Topology, flat: bool) -> Plan:
         triangle_back=back_node[corner_node[topology.triangle_corners]].astype(np.int32),
         lit=lit,
         gloss=gloss,
-        powers=tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy])),
+        power=power,
         two_sided=sided[topology.part_of_polygon],
+        neighbours=_find_neighbours(topology, flat or colored_by_polygon),
         triangle_two_sided=sided[topology.part_of_polygon[topology.polygon_of_triangle]],
         columns=(vertex, polygon, behind, lit[:count], is_round, gloss[:count], power[:count]),
     )
+
+
+def _find_neighbours(topology: Topology, apart: bool) -> Ints32:
+    """(T, 3) as in ``Plan``; an edge that three triangles share has none. ``apart``: each polygon is a surface."""
+    flat = np.array([part.material.flat for part in topology.parts], dtype=bool)
+    part = topology.part_of_polygon
+    surface = np.where(flat[part] | apart, len(topology.parts) + np.arange(topology.polygon_count), part)
+    ends = np.stack([topology.triangles, np.roll(topology.triangles, -1, axis=1)]).reshape(2, -1)
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    key = (np.repeat(surface[topology.polygon_of_triangle], 3) * topology.vertex_count + low) * topology.vertex_count
+    order = np.argsort(key + high, kind="stable")
+    key = (key + high)[order]
+    same = np.concatenate([[False], key[1:] == key[:-1], [False]])
+    first = np.flatnonzero(same[1:-1] & ~same[:-2] & ~same[2:])
+    neighbours = np.full(len(key), -1, dtype=np.int32)
+    neighbours[order[first]], neighbours[order[first + 1]] = order[first + 1] // 3, order[first] // 3
+    return neighbours.reshape(-1, 3)
 
 
 def _join(arrays: list[Ints]) -> Ints:

@@ -1,7 +1,7 @@
 """Products with a constant sparse matrix, compiled: the same sums in the same order as ``SparseMatrix.apply``."""
 
 # Numba finds the types of arguments by itself, so that the functions below name none.
-# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+# mypy: allow-untyped-defs, allow-untyped-calls, no-check-untyped-defs
 
 from __future__ import annotations
 

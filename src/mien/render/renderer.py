@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
 from mien.core.sparse import SparseMatrix
 
-from . import lighting, placing, reference, refining, spans
+from . import bands, lighting, placing, reference, refining, spans
 from .camera import FAR_OUT, NEAR_M, SUBPIXELS, Camera
 from .drawing import draw_drawing
-from .pixels import background_rows, resolve, srgb_tables, straight
+from .pixels import ONE, WHOLE, Samples, background, encode, srgb_codes, to_samples, to_words
 from .plan import Plan
 from .shade import Shades, own_normals
+from .surface import light_surface
 from .triangles import Placed, Triangles, make_triangles
+from .values import corner_values, every_corner, seen_colors_of_polygons
 
 Picture = NDArray[np.uint8]
 Rasteriser = Literal["compiled", "reference"]
@@ -28,7 +30,10 @@ Rasteriser = Literal["compiled", "reference"]
 RASTERISERS: tuple[Rasteriser, ...] = ("compiled", "reference")
 
 BAND_ROWS = 16
-"""Rows of samples in a band. Four planes of 16 x 2048 numbers, 512 KB, still fit a processor core's own cache."""
+"""Rows of pixels in a band. Their samples, 12 bytes each, still fit a processor core's own cache."""
+
+SPARE = 4
+"""Samples behind the last one, into which whole steps of spans reach."""
 
 
 class Renderer:
@@ -37,7 +42,7 @@ class Renderer:
     Attributes:
         scene: what is drawn.
         threads: how many share the bands out; the picture does not depend on it.
-        samples: 1, or 4 samples a pixel, averaged in linear light.
+        samples: 1, or 4 where the border of something runs through a pixel, averaged in linear light.
     """
 
     def __init__(
@@ -51,12 +56,12 @@ class Renderer:
             raise UnknownNameError("rasteriser", str(rasteriser), RASTERISERS)
         self.scene, self.threads, self.samples = scene, threads, samples
         self._rasteriser = rasteriser
-        self._oversampling = 2 if samples == 4 else 1
-        self._camera = Camera.of(scene, self._oversampling)
-        self._behind = background_rows(scene)
+        self._camera = Camera.of(scene)
+        self._behind = to_samples(background(scene))
+        self._light_settings = _light_settings(scene, self._camera)
         self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
-        self._rows: list[NDArray[np.float32]] = []
-        self._edges, self._planes = np.empty((0, 10), dtype=np.int64), np.empty((0, 5, 3))
+        self._room = _Room(0, 0)
+        self._buffers: list[tuple[NDArray[np.generic], ...]] = []
 
     def __enter__(self) -> Renderer:
         return self
@@ -89,30 +94,46 @@ class Renderer:
         """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is."""
         if not (np.isfinite(mesh.points).all() and np.isfinite(mesh.colors).all()):
             raise MienError("a mesh to be drawn has a point or a colour that is not a finite number")
-        if self._rasteriser == "reference":
-            triangles = make_triangles(mesh, self.scene, self._camera)
-            samples, covered = reference.rasterise(triangles, self._camera.width, self._camera.height)
-            return resolve(samples, covered, self._behind, self._oversampling)
-        return self._rasterise(make_triangles(mesh, self.scene, self._camera, self._light, self._place))
+        if self._rasteriser == "compiled":
+            light = corner_values if self.scene.shading == "smooth+" else self._light
+            return self._rasterise(make_triangles(mesh, self.scene, self._camera, light, self._place))
+        triangles = make_triangles(mesh, self.scene, self._camera)
 
-    def _light(self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene) -> Shades:
-        """What ``shade.light_mesh`` says, by compiled code on all threads."""
-        topology = mesh.topology
+        def light_samples(groups: Samples, depth: NDArray[np.float32], offset: tuple[int, int]) -> Samples:
+            several = len(groups) > 1
+            return light_surface(groups, depth, offset, self._camera, self.scene) if several else groups[0]
+
+        return encode(reference.rasterise(triangles, self._camera, self._behind, light_samples, self.samples == 4))
+
+    def _light(
+        self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene, triangles: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """What ``values.corner_values`` says, by compiled code on all threads; shades that no corner has stay empty."""
+        topology, (lamps, ambient) = mesh.topology, self._light_settings[1:]
         polygons, nodes, shades = topology.polygon_count, len(plan.vertex), len(plan.lit)
         normals, facing = np.empty((polygons, 3)), np.empty(polygons, dtype=np.bool_)
         places = (points, topology.corners, topology.starts)
         viewer = np.array([*scene.position, scene.gloss])
         self._share(lighting.sum_normals, [(*places, a, b, normals, facing, viewer) for a, b in self._parts(polygons)])
+        shade_of, needed = np.empty((len(triangles), 3), dtype=np.int32), np.zeros(shades, dtype=np.uint8)
+        lighting.choose_shades(
+            triangles, topology.polygon_of_triangle, facing, plan.triangle_front, plan.triangle_back, shade_of, needed
+        )
         own = own_normals(mesh) if len(plan.round) else normals
-        lamps = np.array([[*lamp.position, *lamp.color, lamp.wrap] for lamp in scene.lamps]).reshape(-1, 7)
-        settings = (own, lamps, np.array(scene.ambient), viewer, scene.cosine_power, *plan.columns)
+        settings = (own, lamps, ambient, viewer, scene.cosine_power, *plan.columns)
         sums = (plan.normal_sum.starts, plan.normal_sum.columns)
         diffuse, highlight = np.empty((shades, 3)), np.empty((shades, 3))
         self._share(
             lighting.light_nodes,
-            [(*places, normals, *settings, *sums, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
+            [(*places, normals, *settings, *sums, needed, a, b, diffuse, highlight) for a, b in self._parts(nodes)],
         )
-        return Shades(diffuse, highlight, facing)
+        if mesh.colored_by_polygon:
+            lit = Shades(diffuse, highlight, facing)
+            return seen_colors_of_polygons(mesh, lit, shade_of, triangles), every_corner(triangles)
+        values = np.zeros((shades, 3))
+        constant = (mesh.colors, topology.corners, topology.starts, *plan.columns[:3], needed)
+        self._share(lighting.tint_nodes, [(*constant, a, b, diffuse, highlight, values) for a, b in self._parts(nodes)])
+        return values, shade_of
 
     def _place(self, points: NDArray[np.float64], plan: Plan, camera: Camera) -> Placed:
         """What ``triangles.place_mesh`` says, by compiled code."""
@@ -125,12 +146,14 @@ class Renderer:
         self._share(
             placing.place_points, [(*constant, a, b, view, codes, places, inverse) for a, b in self._parts(count)]
         )
+        sides, borders = np.empty(triangles, dtype=np.uint8), np.empty(triangles, dtype=np.uint8)
+        placing.see_sides(plan.triangles, codes, places, plan.triangle_two_sided, sides)
         whole, cut = np.empty(triangles, dtype=np.int64), np.empty(triangles, dtype=np.int64)
-        corners = np.empty((triangles, 3), dtype=np.int32)
-        counts = np.empty(2, dtype=np.int64)
-        placing.sort_out(plan.triangles, codes, places, plan.triangle_two_sided, whole, corners, cut, counts)
-        seen, crossing = counts
-        return Placed(view, places, inverse, whole[:seen], corners[:seen], cut[:crossing])
+        corners, counts = np.empty((triangles, 3), dtype=np.int32), np.empty(2, dtype=np.int64)
+        placing.sort_out(plan.triangles, plan.neighbours, sides, whole, cut, corners, borders, counts)
+        seen, crossing = counts.tolist()
+        drawn = np.concatenate([whole[:seen], cut[:crossing]])
+        return Placed(view, places, inverse, drawn, corners[:seen], borders[:seen])
 
     def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """What ``SparseMatrix.apply`` says of values (C, 3)."""
@@ -147,42 +170,33 @@ class Renderer:
 
     def _rasterise(self, triangles: Triangles) -> Picture:
         width, height = self.scene.size_px
-        raster_height, n = self._camera.height, self._oversampling
-        count = len(triangles.corners)
-        if len(self._edges) < count:
+        count, columns = len(triangles.corners), triangles.values.shape[1]
+        smooth = self.samples == 4
+        apron = 1 if smooth else 0
+        if len(self._room.shapes) < count or self._room.planes.shape[1] != 3 * columns:
             # Some more than asked: the number of triangles that face the viewer changes from frame to frame.
-            room = count + count // 8
-            self._edges, self._planes = np.empty((room, 10), dtype=np.int64), np.empty((room, 5, 3))
-        edges, planes = self._edges[:count], self._planes[:count]
-        soup = (triangles.places, triangles.inverse, triangles.corners, triangles.colors, triangles.color_of)
-        self._share(spans.set_up, [(*soup, a, b, edges, planes) for a, b in self._parts(count)])
-        counts = np.zeros(-(-raster_height // BAND_ROWS) + 1, dtype=np.int64)
-        spans.count_bands(edges, raster_height, BAND_ROWS, counts)
-        members = np.empty(int(counts[-1]), dtype=np.int64)
-        spans.sort_bands(edges, raster_height, BAND_ROWS, counts.copy(), members)
+            self._room = _Room(count + count // 8, columns)
+        room = (self._room.shapes[:count], self._room.frames[:count], self._room.planes[:count])
+        soup = (triangles.places, triangles.inverse, triangles.corners, triangles.values, triangles.value_of)
+        self._share(spans.set_up, [(*soup, a, b, *room) for a, b in self._parts(count)])
+        counts = np.zeros(-(-height // BAND_ROWS) + 1, dtype=np.int64)
+        spans.count_bands(room[1], height, BAND_ROWS, apron, counts)
+        members = np.empty(int(counts[-1]), dtype=np.int32)
+        spans.sort_bands(room[1], height, BAND_ROWS, apron, counts.copy(), members)
 
-        if not self._rows:
-            self._rows = [np.empty((4, BAND_ROWS * width * n), dtype=np.float32) for _ in range(self.threads)]
+        groups = columns // 3
+        if not self._buffers or len(self._buffers[0][1]) != groups:
+            self._buffers = [_buffers(width, groups, smooth) for _ in range(self.threads)]
         picture = np.empty((height, width), dtype=np.uint32)
-        plain = straight(self._behind).view(np.uint32).reshape(-1)
-        frame = (edges, planes, counts, members)
+        plain = encode(self._behind).view(np.uint32).reshape(-1)
+        limits = np.array([ONE, *[WHOLE] * (groups - 1)], dtype=np.float32)
+        mesh = (triangles.places, triangles.inverse, triangles.corners, triangles.borders)
+        frame = (*mesh, *room, counts, members, limits)
+        behind = (to_words(self._behind), plain, *self._light_settings, srgb_codes())
         self._share(
-            spans.draw_bands,
+            bands.draw_bands,
             [
-                (
-                    k,
-                    self.threads,
-                    BAND_ROWS,
-                    n,
-                    *frame,
-                    self._rows[k],
-                    np.empty((4, width), dtype=np.float32),
-                    np.empty((4, width), dtype=np.uint8),
-                    self._behind,
-                    plain,
-                    *srgb_tables(),
-                    picture,
-                )
+                (k, self.threads, BAND_ROWS, apron, *frame, *behind, *self._buffers[k], picture)
                 for k in range(self.threads)
             ],
         )
@@ -194,6 +208,42 @@ class Renderer:
         work(*arguments[0])
         for other in others:
             other.result()
+
+
+class _Room:
+    """What is kept of triangles, for up to ``count`` of them with values of some ``columns``."""
+
+    def __init__(self, count: int, columns: int) -> None:
+        self.shapes = np.empty((count, spans.SHAPE_COLUMNS))
+        self.frames = np.empty((count, spans.FRAME_COLUMNS), dtype=np.int32)
+        self.planes = np.empty((count, 3 * columns))
+
+
+def _buffers(width: int, groups: int, smooth: bool) -> tuple[NDArray[np.generic], ...]:
+    """What a thread needs for itself: depth and groups of samples of a band; marks, their places, samples of those."""
+    rows = BAND_ROWS if smooth else 0
+    size = (BAND_ROWS + 2) * width + SPARE
+    return (
+        np.empty(size, dtype=np.float32),
+        np.empty((groups, size), dtype=np.uint64),
+        np.zeros((rows, width), dtype=np.uint8),
+        np.empty((rows, width + 1), dtype=np.int32),
+        np.empty(rows * width, dtype=np.int32),
+        np.empty((4, rows * width), dtype=np.float32),
+        np.empty((groups, 4, rows * width), dtype=np.uint64),
+    )
+
+
+def _light_settings(scene: Scene, camera: Camera) -> tuple[NDArray[np.float64], ...]:
+    """Viewer, lamps and ambient light as ``per_pixel.light_sample`` takes them."""
+    axes = (*camera.right, *camera.up, *camera.forward)
+    raster = (camera.scale, camera.width * 0.5, camera.height * 0.5)
+    lamps = [[*lamp.position, *lamp.color, lamp.wrap, 1.0 / (1.0 + lamp.wrap)] for lamp in scene.lamps]
+    return (
+        np.array([*camera.position, *axes, *raster, scene.gloss, scene.cosine_power]),
+        np.array(lamps).reshape(-1, 8),
+        np.array(scene.ambient),
+    )
 
 
 def draw(face: Face, pose: Pose, scene: Scene, *, threads: int = 1, samples: int = 4) -> Picture:

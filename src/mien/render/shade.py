@@ -54,23 +54,49 @@ def polygon_normals(points: Floats, plan: Plan, polygon_count: int) -> Floats:
 def light_mesh(mesh: Mesh, points: Floats, plan: Plan, scene: Scene) -> Shades:
     """The light on a mesh whose points, rounded, are ``points`` (V, 3) m."""
     normals = polygon_normals(points, plan, mesh.topology.polygon_count)
+    places = _node_places(points, plan, mesh)
+    if len(plan.back):
+        places = _three(np.concatenate([p, p[plan.back]]) for p in places)
+    diffuse, highlight = light_places(
+        places, shade_normals(mesh, normals, plan), plan.gloss, group_powers(plan.lit, plan.gloss, plan.power), scene
+    )
+    diffuse[~plan.lit] = 1.0
+    return Shades(diffuse, highlight, facing_viewer(mesh, points, normals, scene))
+
+
+def facing_viewer(mesh: Mesh, points: Floats, normals: Floats, scene: Scene) -> NDArray[np.bool_]:
+    """(F,) whether polygons with these normals turn their fronts to the viewer."""
     first = points[mesh.topology.corners[mesh.topology.starts[:-1]]]
     towards = [scene.position[k] - first[:, k] for k in range(3)]
-    faces_viewer = _dot(towards, _columns(normals)) > 0.0
+    return _dot(towards, _columns(normals)) > 0.0
 
+
+def shade_normals(mesh: Mesh, normals: Floats, plan: Plan) -> Columns:
+    """Unit normals of all shades, three columns (N + M,), from those of the polygons (F, 3)."""
     directions = _columns(plan.normal_sum.apply(normals))
-    places = _node_places(points, plan, mesh)
     if len(plan.round):
         own = own_normals(mesh)
         for k in range(3):
             directions[k][plan.round] = own[plan.vertex[plan.round], k]
-    directions = _normalised(directions)
-    if len(plan.back):
-        directions = _three(np.concatenate([d, -d[plan.back]]) for d in directions)
-        places = _three(np.concatenate([p, p[plan.back]]) for p in places)
-    diffuse, highlight = light_places(places, directions, plan, scene)
-    diffuse[~plan.lit] = 1.0
-    return Shades(diffuse, highlight, faces_viewer)
+    directions = normalised(directions)
+    return _three(np.concatenate([d, -d[plan.back]]) for d in directions) if len(plan.back) else directions
+
+
+def node_colors(mesh: Mesh, plan: Plan) -> Floats:
+    """(N + M, 3) own colour of every shade of a mesh whose colours belong to its vertices."""
+    own = mesh.colors[plan.vertex]
+    in_polygons = np.flatnonzero(plan.vertex < 0)
+    if len(in_polygons):
+        own[in_polygons] = polygon_means(mesh.colors, plan, mesh)[plan.polygon[in_polygons]]
+    return np.concatenate([own, own[plan.back]])
+
+
+def group_powers(
+    lit: NDArray[np.bool_], gloss: Floats, power: NDArray[np.int64]
+) -> tuple[tuple[int, NDArray[np.int64]], ...]:
+    """Sharpness of highlights, each with the numbers of what has it."""
+    glossy = (gloss > 0.0) & lit
+    return tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy]))
 
 
 def own_normals(mesh: Mesh) -> Floats:
@@ -80,8 +106,21 @@ def own_normals(mesh: Mesh) -> Floats:
     return mesh.normals
 
 
-def light_places(places: Columns, normals: Columns, plan: Plan, scene: Scene) -> tuple[Floats, Floats]:
+def light_places(
+    places: Columns,
+    normals: Columns,
+    gloss: Floats,
+    powers: tuple[tuple[int, NDArray[np.int64]], ...],
+    scene: Scene,
+) -> tuple[Floats, Floats]:
     """(N, 3) diffuse light and (N, 3) highlights at places with unit normals, both given as three columns.
+
+    Args:
+        places: m.
+        normals: of length 1.
+        gloss: (N,) strength of highlights.
+        powers: their sharpness, from ``group_powers``.
+        scene: viewer and lamps.
 
     Source: Parke 1974, section 3.5 (diffuse factor, cosine power); Blinn 1977 (half vector).
     """
@@ -89,24 +128,24 @@ def light_places(places: Columns, normals: Columns, plan: Plan, scene: Scene) ->
     low, high = scene.ambient
     diffuse = [low[c] + (high[c] - low[c]) * up for c in range(3)]
     highlight = np.zeros((len(up), 3))
-    viewer = [_pick(_towards(places, scene.position), numbers) for _, numbers in plan.powers]
+    viewer = [_pick(_towards(places, scene.position), numbers) for _, numbers in powers]
     for light in scene.lamps:
         towards = _towards(places, light.position)
         cosine = _dot(normals, towards)
-        amount = np.maximum((cosine + light.wrap) / (1.0 + light.wrap), 0.0)
+        amount = np.maximum((cosine + light.wrap) * (1.0 / (1.0 + light.wrap)), 0.0)
         amount = whole_power(amount, scene.cosine_power)
         for c in range(3):
             diffuse[c] += light.color[c] * amount
         if scene.gloss > 0.0:
-            for (power, numbers), eye in zip(plan.powers, viewer, strict=True):
+            for (power, numbers), eye in zip(powers, viewer, strict=True):
                 shine = _shine(_pick(normals, numbers), _pick(towards, numbers), eye, cosine[numbers], power)
-                shine *= plan.gloss[numbers] * scene.gloss
+                shine *= gloss[numbers] * scene.gloss
                 _add_colored(highlight, numbers, shine, light)
     return np.stack(diffuse, axis=1), highlight
 
 
 def _shine(normals: Columns, towards: Columns, viewer: Columns, cosine: Floats, power: int) -> Floats:
-    half = _normalised(_three(a + b for a, b in zip(towards, viewer, strict=True)))
+    half = normalised(_three(a + b for a, b in zip(towards, viewer, strict=True)))
     return np.where(cosine > 0.0, whole_power(np.maximum(_dot(normals, half), 0.0), power), 0.0)
 
 
@@ -165,10 +204,11 @@ def _dot(a: Sequence[Floats], b: Sequence[Floats]) -> Floats:
 
 
 def _towards(places: Columns, target: tuple[float, float, float]) -> Columns:
-    return _normalised(_three(target[k] - places[k] for k in range(3)))
+    return normalised(_three(target[k] - places[k] for k in range(3)))
 
 
-def _normalised(a: Columns) -> Columns:
+def normalised(a: Columns) -> Columns:
+    """Vectors of length 1; those without length stay as they are."""
     # The smallest normal number: a vector without length stays the zero vector, and so gets no light.
     scale = 1.0 / np.sqrt(np.maximum(_dot(a, a), 2.2250738585072014e-308))
     return a[0] * scale, a[1] * scale, a[2] * scale

@@ -1,4 +1,4 @@
-"""A lit mesh as triangles on the raster: what both rasterisers, the plain and the fast one, are given."""
+"""A mesh as triangles on the raster: what both rasterisers, the plain and the fast one, are given."""
 
 from __future__ import annotations
 
@@ -13,14 +13,22 @@ from mien.core import Mesh, Scene, exact
 from .camera import Camera
 from .clip import clip_polygons, outcodes
 from .plan import Plan, plan_shading
-from .shade import Shades, light_mesh, polygon_means
+from .shade import facing_viewer, polygon_normals
+from .values import corner_values
 from .wire import edge_ribbons, paper_colors
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Ints32 = NDArray[np.int32]
-Light = Callable[[Mesh, Floats, Plan, Scene], Shades]
+Bytes = NDArray[np.uint8]
+Light = Callable[[Mesh, Floats, Plan, Scene, Ints], tuple[Floats, Ints32]]
 Place = Callable[[Floats, Plan, Camera], "Placed"]
+
+ALL_EDGES = 7
+"""One bit an edge: from the first corner to the second, and so on."""
+
+HIDDEN, FRONT, BACK = 0, 1, 2
+"""What is seen of a triangle that lies wholly in the picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,15 +39,17 @@ class Triangles:
         places: (P, 2) 1/256 pixels of the raster, x right and y down.
         inverse: (P,) 1 / depth, 1/m.
         corners: (T, 3) numbers of places.
-        colors: (S, 3) linear RGB.
-        color_of: (T, 3) numbers of colours.
+        values: (S, 3 G) what is interpolated.
+        value_of: (T, 3) numbers of values.
+        borders: (T,) edges beyond which the surface does not go on as it is seen, one bit each.
     """
 
     places: Ints32
     inverse: Floats
     corners: Ints32
-    colors: Floats
-    color_of: Ints32
+    values: Floats
+    value_of: Ints32
+    borders: Bytes
 
     def followed_by(self, other: Triangles) -> Triangles:
         """These triangles, then others."""
@@ -47,8 +57,9 @@ class Triangles:
             np.concatenate([self.places, other.places]),
             np.concatenate([self.inverse, other.inverse]),
             np.concatenate([self.corners, other.corners + np.int32(len(self.places))]),
-            np.concatenate([self.colors, other.colors]),
-            np.concatenate([self.color_of, other.color_of + np.int32(len(self.colors))]),
+            np.concatenate([self.values, other.values]),
+            np.concatenate([self.value_of, other.value_of + np.int32(len(self.values))]),
+            np.concatenate([self.borders, other.borders]),
         )
 
 
@@ -60,17 +71,17 @@ class Placed:
         view: (V, 3) m, the camera's frame.
         places: (V, 2) 1/256 pixels.
         inverse: (V,) 1 / depth, 1/m.
-        whole: numbers of the triangles that lie in the picture and are seen.
-        corners: (n, 3) their vertices.
-        cut: numbers of the triangles that the picture's border cuts.
+        drawn: numbers of the triangles that lie in the picture and are seen, then of those that its border cuts.
+        corners: (n, 3) vertices of the n that are seen whole.
+        borders: (n,) edges of theirs, as in ``Triangles``.
     """
 
     view: Floats
     places: Ints32
     inverse: Floats
-    whole: Ints
+    drawn: Ints
     corners: Ints32
-    cut: Ints
+    borders: Bytes
 
 
 def place_mesh(points: Floats, plan: Plan, camera: Camera) -> Placed:
@@ -80,66 +91,54 @@ def place_mesh(points: Floats, plan: Plan, camera: Camera) -> Placed:
     places, inverse = camera.project(view)
     first, second, third = (codes[row] for row in plan.triangles)
     outside = first | second | third
-    whole = np.flatnonzero((outside == 0) & _is_seen(places, plan.triangles, plan.triangle_two_sided))
+    sides = np.where(outside == 0, _seen_side(places, plan.triangles, plan.triangle_two_sided), HIDDEN)
+    whole = np.flatnonzero(sides)
+    beyond = plan.neighbours[whole]
+    ends = (beyond < 0) | (sides[beyond] != sides[whole][:, None])
+    borders = (ends * np.array([1, 2, 4])).sum(axis=1).astype(np.uint8)
     corners = np.ascontiguousarray(plan.triangles[:, whole].T, dtype=np.int32)
     cut = np.flatnonzero((outside != 0) & ((first & second & third) == 0))
-    return Placed(view, places, inverse, whole, corners, cut)
+    return Placed(view, places, inverse, np.concatenate([whole, cut]), corners, borders)
 
 
 def make_triangles(
-    mesh: Mesh, scene: Scene, camera: Camera, light: Light = light_mesh, place: Place = place_mesh
+    mesh: Mesh, scene: Scene, camera: Camera, light: Light = corner_values, place: Place = place_mesh
 ) -> Triangles:
-    """The mesh, lit by ``light``, projected by ``place``, clipped, without what turns its back."""
+    """The mesh, projected by ``place``, lit by ``light``, clipped, without what turns its back."""
     topology = mesh.topology
     points = exact.round_points(mesh.points)
-    plan = plan_shading(topology, scene.shading != "smooth")
+    plan = plan_shading(topology, scene.shading in ("polygon", "wire"), mesh.colored_by_polygon)
     if scene.shading == "wire":
         mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
-    shades = light(mesh, points, plan, scene)
     placed = place(points, plan, camera)
-    view, cut = placed.view, placed.cut
-    colors, color_of = _corner_colors(mesh, plan, shades, placed.whole)
-    result = Triangles(placed.places, placed.inverse, placed.corners, colors, color_of)
+    values, value_of = light(mesh, points, plan, scene, placed.drawn)
+    whole = len(placed.corners)
+    result = Triangles(placed.places, placed.inverse, placed.corners, values, value_of[:whole], placed.borders)
+    cut = placed.drawn[whole:]
     if len(cut):
-        colors, color_of = _corner_colors(mesh, plan, shades, cut)
-        corner_values = np.concatenate([view[plan.triangles[:, cut].T], colors[color_of]], axis=2)
-        result = result.followed_by(_clipped(camera, corner_values, plan.triangle_two_sided[cut]))
+        carried = values[value_of[whole:]]
+        corner_places = placed.view[plan.triangles[:, cut].T]
+        result = result.followed_by(
+            _clipped(camera, np.concatenate([corner_places, carried], axis=2), plan.triangle_two_sided[cut])
+        )
     if scene.shading == "wire":
-        result = result.followed_by(Triangles(*edge_ribbons(topology, view, shades.faces_viewer, plan, camera)))
+        facing = facing_viewer(mesh, points, polygon_normals(points, plan, topology.polygon_count), scene)
+        ribbons = edge_ribbons(topology, placed.view, facing, plan, camera)
+        result = result.followed_by(Triangles(*ribbons, _all_borders(ribbons[2])))
     return result
 
 
-def _is_seen(places: Ints32, corners: Ints, two_sided: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Whether triangles (3, T) have an area on the raster and show their front, anticlockwise, or may show both."""
+def _seen_side(places: Ints32, corners: Ints, two_sided: NDArray[np.bool_]) -> Ints:
+    """What is seen of triangles (3, T) that have an area on the raster: front is anticlockwise."""
     x, y = places[:, 0].astype(np.float64), places[:, 1].astype(np.float64)
     ax, ay = x[corners[0]], y[corners[0]]
     # Whole numbers below 2^25: their products are exact.
     area = (x[corners[1]] - ax) * (y[corners[2]] - ay) - (x[corners[2]] - ax) * (y[corners[1]] - ay)
-    seen: NDArray[np.bool_] = (area < 0) | ((area > 0) & two_sided)
-    return seen
-
-
-def _corner_colors(mesh: Mesh, plan: Plan, shades: Shades, triangles: Ints) -> tuple[Floats, Ints32]:
-    """A list of colours, and which of them each corner of these triangles (n,) has, (n, 3)."""
-    polygon = mesh.topology.polygon_of_triangle[triangles]
-    shade_of = plan.triangle_front[triangles]
-    if len(plan.back):
-        behind = np.flatnonzero(~shades.faces_viewer[polygon])
-        shade_of[behind] = plan.triangle_back[triangles[behind]]
-    if mesh.colored_by_polygon:
-        own = mesh.colors[polygon][:, None, :]
-        colors = own * shades.diffuse[shade_of] + shades.highlight[shade_of]
-        return colors.reshape(-1, 3), np.arange(3 * len(triangles), dtype=np.int32).reshape(-1, 3)
-    own = mesh.colors[plan.vertex]
-    in_polygons = np.flatnonzero(plan.vertex < 0)
-    if len(in_polygons):
-        own[in_polygons] = polygon_means(mesh.colors, plan, mesh)[plan.polygon[in_polygons]]
-    own = np.concatenate([own, own[plan.back]])
-    return own * shades.diffuse + shades.highlight, shade_of
+    return np.where(area < 0, FRONT, np.where((area > 0) & two_sided, BACK, HIDDEN))
 
 
 def _clipped(camera: Camera, corner_values: Floats, two_sided: NDArray[np.bool_]) -> Triangles:
-    """Triangles of what is inside the pyramid; values (n, 3, 6) are places in the camera's frame, then colours."""
+    """Triangles of what is inside the pyramid; values (n, 3, 3 + K) are places in the camera's frame, then the rest."""
     polygons, counts = clip_polygons(camera, corner_values)
     size = polygons.shape[1]
     flat = polygons.reshape(-1, polygons.shape[2])
@@ -151,5 +150,9 @@ def _clipped(camera: Camera, corner_values: Floats, two_sided: NDArray[np.bool_]
         fans.append(np.stack([first[rows], first[rows] + k, first[rows] + k + 1, rows], axis=1))
     fan = np.concatenate(fans)
     fan = fan[np.argsort(fan[:, 3], kind="stable")]
-    corners = fan[_is_seen(places, fan[:, :3].T, two_sided[fan[:, 3]]), :3].astype(np.int32)
-    return Triangles(places, inverse, corners, np.ascontiguousarray(flat[:, 3:]), corners)
+    corners = fan[_seen_side(places, fan[:, :3].T, two_sided[fan[:, 3]]) != HIDDEN, :3].astype(np.int32)
+    return Triangles(places, inverse, corners, np.ascontiguousarray(flat[:, 3:]), corners, _all_borders(corners))
+
+
+def _all_borders(corners: Ints32) -> Bytes:
+    return np.full(len(corners), ALL_EDGES, dtype=np.uint8)

@@ -11,6 +11,7 @@ from mien.core import Topology
 
 from .camera import SUBPIXELS, Camera
 from .clip import clip_segments, outcodes
+from .pixels import ONE
 from .plan import Plan
 
 Floats = NDArray[np.float64]
@@ -20,7 +21,7 @@ Ints32 = NDArray[np.int32]
 LINE_SHARE = 1.0 / 900.0
 """Width of a line as a share of the picture's shorter side, but never less than ``LEAST_PX`` of the raster."""
 
-LEAST_PX = 1.4
+LEAST_PX = 1.0
 
 LIFT_M = 0.0012
 """How much nearer to the viewer than its polygons an edge is drawn, metres, so that no half of it sinks in."""
@@ -86,6 +87,6 @@ def edge_ribbons(
         np.rint(corners).astype(np.int32).reshape(-1, 2),
         inverse.reshape(-1),
         triangles,
-        np.array([INK]),
+        np.array([INK]) * ONE,
         np.zeros_like(triangles),
     )

@@ -151,17 +151,17 @@ def test_ends_of_compiled_spans_are_exact_in_the_largest_pictures(
     first, last = -((128 - ay) // 256), (by - 129) // 256
     if first > last:
         return
-    centre = data.draw(st.integers(first, last)) * 256 + 128
+    height = data.draw(st.integers(first, last)) * 256 + 128
+    offset = data.draw(st.sampled_from([32, 96, 128, 160, 224]))
     down = by - ay
-    wanted = -(-((ax - 128) * down + (centre - ay) * (bx - ax)) // (256 * down))
-    found = spans._first_centre.dispatcher(float(ax), float(ay), float(bx - ax), 1.0 / (256.0 * down), float(centre))
-    assert found == wanted
+    wanted = -(-((ax - offset) * down + (height - ay) * (bx - ax)) // (256 * down))
+    slope = float(bx - ax) / (256.0 * down)
+    assert spans.first_sample.dispatcher(float(ax), slope, float(height - ay), float(offset)) == wanted
 
 
-def test_ends_of_compiled_spans_on_a_centre_belong_to_the_pixel() -> None:
-    first_centre = spans._first_centre.dispatcher
-    for down in (3, 7, 4093, 2**23 - 1):
-        for column in (0, 1, 16383, 32767):
-            x = column * 256 + 128
-            assert first_centre(float(x), 0.0, 0.0, 1.0 / (256.0 * down), 128.0) == column
-            assert first_centre(float(x + 1), 0.0, 0.0, 1.0 / (256.0 * down), 128.0) == column + 1
+def test_ends_of_compiled_spans_on_a_sample_belong_to_the_pixel() -> None:
+    first_sample = spans.first_sample.dispatcher
+    for column in (0, 1, 16383, 32767):
+        x = column * 256 + 128
+        assert first_sample(float(x), 0.0, 128.0, 128.0) == column
+        assert first_sample(float(x + 1), 0.0, 128.0, 128.0) == column + 1

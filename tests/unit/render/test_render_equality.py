@@ -46,7 +46,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
         background=((*ends[0][:3], float(rng.choice([0.0, 0.5, 1.0]))), (*ends[1][:3], float(rng.choice([0.0, 1.0])))),
         lights=lights,
         cosine_power=int(rng.integers(1, 5)),
-        shading=str(rng.choice(["smooth", "polygon", "wire"], p=[0.6, 0.2, 0.2])),  # type: ignore[arg-type]
+        shading=str(rng.choice(["smooth", "smooth+", "polygon", "wire"], p=[0.5, 0.2, 0.15, 0.15])),  # type: ignore[arg-type]
         subdivide=0,
     )
 
