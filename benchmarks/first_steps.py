@@ -1,4 +1,4 @@
-"""Milliseconds of one start of ours, step by step: ``python benchmarks/first_steps.py``. It imports nothing beforehand."""
+"""Milliseconds of one start of ours, step by step: ``python benchmarks/first_steps.py``. Nothing is imported before."""
 
 from __future__ import annotations
 

@@ -40,6 +40,11 @@ class Entry:
     samples: int
     threads: int = 0
 
+    @property
+    def title(self) -> str:
+        """Label and samples, as people read them."""
+        return f"{self.label}, {self.samples} sample{'s' * (self.samples > 1)}"
+
 
 OURS = tuple(
     Entry(f"mien, {threads} thread{'s' * (threads > 1)}", "with_mien", None, samples, threads)
@@ -101,9 +106,9 @@ def start(stack: ExitStack, entries: list[Entry], pythons: dict[str | None, Path
     for entry in entries:
         worker = stack.enter_context(Worker(pythons[entry.package], entry.module, entry.samples, entry.threads))
         try:
-            print(f"- {entry.label}, {entry.samples} sample{'s' * (entry.samples > 1)}: {worker.start()}", flush=True)
+            print(f"- {entry.title}: {worker.start()}", flush=True)
         except WorkerEndedError as reason:
-            print(f"- {entry.label}, {entry.samples} samples: left out, it {reason}", flush=True)
+            print(f"- {entry.title}: left out, it {reason}", flush=True)
             continue
         workers[entry] = worker
     return workers
@@ -112,6 +117,12 @@ def start(stack: ExitStack, entries: list[Entry], pythons: dict[str | None, Path
 def race(workers: dict[Entry, Worker], form: Path, pictures: Path | None, rounds: int, frames: int) -> Race:
     """Times of every renderer with a form; who falls over is dropped from ``workers``."""
     result: Race = {}
+
+    def drop(entry: Entry, reason: WorkerEndedError) -> None:
+        print(f"{entry.title} is left out from here on, it {reason}")
+        result.pop(entry, None)
+        del workers[entry]
+
     covered: NDArray[np.bool_] | None = None
     for entry in list(workers):
         kept = form.with_suffix(".npy")
@@ -120,8 +131,7 @@ def race(workers: dict[Entry, Worker], form: Path, pictures: Path | None, rounds
             workers[entry].ask("picture", path=str(kept), frame=7)
             workers[entry].ask("draw", first=12, count=1)
         except WorkerEndedError as reason:
-            print(f"{entry.label} is left out from here on, it {reason}")
-            del workers[entry]
+            drop(entry, reason)
             continue
         picture = np.load(kept)
         if pictures is not None:
@@ -131,8 +141,12 @@ def race(workers: dict[Entry, Worker], form: Path, pictures: Path | None, rounds
         covered = own if covered is None else covered
         result[entry] = Times(overlap=float((own & covered).sum() / (own | covered).sum()))
     for k in range(rounds):
-        for entry, times in result.items():
-            answer = workers[entry].ask("draw", first=12 + k * frames, count=frames)
+        for entry, times in list(result.items()):
+            try:
+                answer = workers[entry].ask("draw", first=12 + k * frames, count=frames)
+            except WorkerEndedError as reason:
+                drop(entry, reason)
+                continue
             times.wall.append(1000.0 * answer["wall_s"] / frames)
             times.cpu.append(1000.0 * answer["cpu_s"] / frames)
     return result
