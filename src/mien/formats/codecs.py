@@ -128,6 +128,8 @@ CODECS: tuple[Codec, ...] = (
         pixels="pal8",
         clear_pixels="pal8",
         container_options={"loop": "0"},
+        # Its cutting off of what is clear takes single pixels at the lower edge with it.
+        clear_options={"gifflags": "-offsetting"},
         spaced=True,
         ticks_per_s=100,
         fps_high=50.0,

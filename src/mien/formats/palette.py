@@ -29,17 +29,26 @@ BINS = 64**3
 VISIBLE = 128
 """Least alpha of a pixel that is shown."""
 
-DITHER = 3
+DITHER = 2
 """Codes by which the pattern shifts a colour at most: enough to break up bands, too little to be seen as a pattern.
 
 The pattern stays where it is from frame to frame; diffused errors would crawl over what does not move.
 """
 
-PATTERN = np.array([[0, 2], [3, 1]], dtype=np.int64)
-for _ in range(2):
-    PATTERN = np.block([[4 * PATTERN, 4 * PATTERN + 2], [4 * PATTERN + 3, 4 * PATTERN + 1]])
-PATTERN = np.rint((PATTERN - 31.5) * (DITHER / 31.5)).astype(np.int64)
-"""(8, 8) codes to add. Source: Bayer 1973, "An optimum method for two-level rendition of continuous-tone pictures"."""
+
+def _make_pattern() -> NDArray[np.int64]:
+    """(8, 8) codes to add, as even as they can be in any part of it.
+
+    Source: Bayer 1973, "An optimum method for two-level rendition of continuous-tone pictures".
+    """
+    steps = np.zeros((1, 1), dtype=np.int64)
+    for _ in range(3):
+        steps = np.block([[4 * steps, 4 * steps + 2], [4 * steps + 3, 4 * steps + 1]])
+    middle = (steps.size - 1) / 2
+    return np.rint((steps - middle) * (DITHER / middle)).astype(np.int64)
+
+
+PATTERN = _make_pattern()
 
 
 class Quantiser:
@@ -48,7 +57,7 @@ class Quantiser:
     def __init__(self, clear: bool) -> None:
         """With ``clear``, the last colour is none, for what is not visible."""
         self._limit = COLORS - 1 if clear else COLORS
-        self._bins = np.zeros((BINS, 4), dtype=np.int32)
+        self._bins = np.zeros((BINS, 4), dtype=np.int64)
         self._used = np.empty(BINS, dtype=np.int32)
         self._nearest = np.empty(BINS, dtype=np.int32)
 
@@ -72,7 +81,7 @@ class Quantiser:
         return numbers, colors
 
 
-@kernel("u4[:,:], i4[:,:], i4[:] -> i8")
+@kernel("u4[:,:], i8[:,:], i4[:] -> i8")
 def count_colors(words: Words, bins: Numbers, used: Numbers) -> int:
     """How many bins hold visible pixels.
 
@@ -99,7 +108,7 @@ def count_colors(words: Words, bins: Numbers, used: Numbers) -> int:
     return count
 
 
-@kernel("i4[:,:], i4[:], i8, i8, f8[:,:], i8[:,:], i8[:,:] -> i8")
+@kernel("i8[:,:], i4[:], i8, i8, f8[:,:], i8[:,:], i8[:,:] -> i8")
 def choose_colors(
     bins: Numbers, used: Numbers, count: int, limit: int, boxes: Floats, ends: Numbers, palette: Numbers
 ) -> int:

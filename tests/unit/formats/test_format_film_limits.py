@@ -6,7 +6,7 @@ import errno
 import os
 import resource
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import av
@@ -15,10 +15,9 @@ import pytest
 from film_cases import KINDS, SIZE, frames, pictures, tone
 
 from mien.core import MienError, RangeError, UnknownNameError
-from mien.formats import film, film_stills
+from mien.formats import film, film_frames, film_stills
 from mien.formats.codecs import CODECS, Codec, find_codec
 from mien.formats.film import write_film
-from mien.formats.film_frames import make_frame
 
 
 @pytest.mark.parametrize("codec", CODECS, ids=[row.suffix for row in CODECS])
@@ -78,14 +77,18 @@ def test_an_encoder_that_fails_midway_is_one_clear_word(
 ) -> None:
     made: list[int] = []
 
-    def failing(pixels: np.ndarray, layout: str) -> av.VideoFrame:
-        made.append(1)
-        if len(made) == 4:
-            raise av.error.ExternalError(542398533, "Generic error in an external library")
-        return make_frame(pixels, layout)
+    def failing(make: Callable[..., av.VideoFrame]) -> Callable[..., av.VideoFrame]:
+        def make_or_fail(*arguments: object) -> av.VideoFrame:
+            made.append(1)
+            if len(made) == 4:
+                raise av.error.ExternalError(542398533, "Generic error in an external library")
+            return make(*arguments)
+
+        return make_or_fail
 
     for module in (film, film_stills):
-        monkeypatch.setattr(module, "make_frame", failing)
+        monkeypatch.setattr(module, "make_frame", failing(film_frames.make_frame))
+    monkeypatch.setattr(film, "make_frame_in_colors", failing(film_frames.make_frame_in_colors))
     with pytest.raises(MienError, match=r"a\.\w+: the encoder \S+ gave up \(Generic error"):
         write_film(frames(8), tmp_path / f"a{suffix}", fps=24, size_px=SIZE, sound=tone(1))
     assert list(tmp_path.iterdir()) == []
