@@ -141,7 +141,8 @@ def test_an_error_anywhere_ends_everything(
     if where == "draw":
         monkeypatch.setattr(SmallRenderer, "draw", fail_at(20, error, SmallRenderer.draw))
     if where == "convert":
-        monkeypatch.setattr(film, "make_frame", fail_at(20, error, film.make_frame))
+        for function in ("make_frame", "make_frame_in_colors"):
+            monkeypatch.setattr(film, function, fail_at(20, error, getattr(film, function)))
         monkeypatch.setattr(StillEncoder, "encode", fail_at(20, error, StillEncoder.encode))
         monkeypatch.setattr("mien.formats.series.Picture", fail_at(20, error, Picture))
     with nothing_left(tmp_path), pytest.raises(type(error)):
