@@ -28,6 +28,8 @@ SETTINGS = "settings"
 
 
 KERNELS = (
+    "mien.faces.head.posing",
+    "mien.formats.palette",
     "mien.formats.yuv",
     "mien.render.bands",
     "mien.render.lighting",

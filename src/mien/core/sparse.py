@@ -55,6 +55,16 @@ class SparseMatrix:
         return len(self.starts) - 1, self.column_count
 
     @cached_property
+    def mixed(self) -> tuple[Ints, Ints, NDArray[np.uint32], Floats]:
+        """The rows (M,) that are no mere copies of the column of their number; starts, columns and weights of them."""
+        counts, number = np.diff(self.starts), np.arange(self.shape[0])
+        first = np.minimum(self.starts[:-1], len(self.columns) - 1)
+        rows = np.flatnonzero((counts != 1) | (self.columns[first] != number) | (self.weights[first] != 1.0))
+        starts = np.concatenate([[0], np.cumsum(counts[rows])]).astype(np.int64)
+        entries = np.repeat(self.starts[rows] - starts[:-1], counts[rows]) + np.arange(starts[-1])
+        return rows, starts, self.columns[entries].astype(np.uint32), self.weights[entries]
+
+    @cached_property
     def _diagonals(self) -> tuple[Ints, list[tuple[Ints, Floats]]]:
         """Rows from most entries to fewest, and the k-th entry of each row that has one: short, dense passes."""
         counts = np.diff(self.starts)

@@ -9,7 +9,7 @@ edges: cubic B-spline curves; a vertex where one, or more than two, sharp edges 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -20,7 +20,7 @@ from .mesh import Mesh, Part, Topology
 from .sparse import SparseMatrix, sort_pairs
 
 Ints = NDArray[np.int64]
-Multiply = Callable[[SparseMatrix, NDArray[np.float64]], NDArray[np.float64]]
+Multiply = Callable[[SparseMatrix, Sequence[NDArray[np.float64]]], Sequence[NDArray[np.float64]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,19 +38,27 @@ class Refinement:
     polygon_parent: Ints
 
 
-def subdivide(mesh: Mesh, levels: int, multiply: Multiply = SparseMatrix.apply) -> Mesh:
+def apply_to_each(matrix: SparseMatrix, values: Sequence[NDArray[np.float64]]) -> Sequence[NDArray[np.float64]]:
+    """The products of a matrix with several values (C, 3)."""
+    return [matrix.apply(each) for each in values]
+
+
+def subdivide(mesh: Mesh, levels: int, multiply: Multiply = apply_to_each) -> Mesh:
     """The mesh with the parts that ask for it refined ``levels`` times; colours follow the same rules.
 
     Args:
         mesh: what to refine.
         levels: how many times.
-        multiply: the product of a matrix and values (C, 3); a renderer brings a compiled one of the same bits.
+        multiply: products of a matrix and one or two values (C, 3); a renderer brings compiled ones of the same bits.
     """
     for _ in range(levels):
         fine = refine(mesh.topology)
-        colors = mesh.colors[fine.polygon_parent] if mesh.colored_by_polygon else multiply(fine.matrix, mesh.colors)
+        if mesh.colored_by_polygon:
+            (points,), colors = multiply(fine.matrix, (mesh.points,)), mesh.colors[fine.polygon_parent]
+        else:
+            points, colors = multiply(fine.matrix, (mesh.points, mesh.colors))
         normals = None if mesh.normals is None else _keep_rows(mesh.normals, fine.topology.vertex_count)
-        mesh = Mesh(fine.topology, multiply(fine.matrix, mesh.points), colors, normals)
+        mesh = Mesh(fine.topology, points, colors, normals)
     return mesh
 
 

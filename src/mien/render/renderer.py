@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from types import TracebackType
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
 from mien.core.sparse import SparseMatrix
+from mien.core.subdivision import apply_to_each
 
 from . import bands, lighting, placing, reference, refining, spans
 from .camera import FAR_OUT, NEAR_M, SUBPIXELS, Camera
@@ -88,7 +89,7 @@ class Renderer:
     def refine(self, mesh: Mesh) -> Mesh:
         """The mesh subdivided as the scene asks, by compiled code on all threads; ``core.subdivide`` to the bit."""
         plain = self._rasteriser == "reference"
-        return subdivide(mesh, self.scene.subdivide, SparseMatrix.apply if plain else self._multiply)
+        return subdivide(mesh, self.scene.subdivide, apply_to_each if plain else self._multiply)
 
     def draw_mesh(self, mesh: Mesh) -> Picture:
         """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is."""
@@ -155,13 +156,16 @@ class Renderer:
         drawn = np.concatenate([whole[:seen], cut[:crossing]])
         return Placed(view, places, inverse, drawn, corners[:seen], borders[:seen])
 
-    def _multiply(self, matrix: SparseMatrix, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What ``SparseMatrix.apply`` says of values (C, 3)."""
-        rows, _ = matrix.shape
-        out = np.empty((rows, 3))
-        entries = (matrix.starts, matrix.columns, matrix.weights, np.ascontiguousarray(values))
-        self._share(refining.multiply_rows, [(*entries, a, b, out) for a, b in self._parts(rows)])
-        return out
+    def _multiply(self, matrix: SparseMatrix, values: Sequence[NDArray[np.float64]]) -> Sequence[NDArray[np.float64]]:
+        """What ``SparseMatrix.apply`` says of one or two values (C, 3)."""
+        rows, columns = matrix.shape
+        outs = [np.empty((rows, 3)) for _ in values]
+        for each, out in zip(values, outs, strict=True):
+            out[:columns] = each[:rows]
+        kernel = refining.multiply_rows if len(outs) == 1 else refining.multiply_rows_by_two
+        entries = (*matrix.mixed, *(np.ascontiguousarray(each) for each in values))
+        self._share(kernel, [(*entries, a, b, *outs) for a, b in self._parts(len(matrix.mixed[0]))])
+        return outs
 
     def _parts(self, count: int) -> list[tuple[int, int]]:
         """0:count in as many runs as there are threads."""

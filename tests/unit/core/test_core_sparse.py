@@ -59,3 +59,12 @@ def test_pairs_are_sorted_as_python_sorts_them(pairs):
     order, new = sort_pairs(first, second)
     assert order.tolist() == sorted(range(len(pairs)), key=lambda number: pairs[number])
     assert new.sum() == len(set(pairs))
+
+
+def test_rows_that_are_no_copy_of_their_column_are_listed():
+    matrix = make([(0, 0, 1.0), (1, 1, 2.0), (2, 0, 1.0), (4, 1, 0.5), (4, 2, 0.5)], (5, 3))
+    rows, starts, columns, weights = matrix.mixed
+    assert rows.tolist() == [1, 2, 3, 4]
+    assert starts.tolist() == [0, 1, 2, 2, 4]
+    assert columns.tolist() == [1, 0, 1, 2]
+    assert weights.tolist() == [2.0, 1.0, 0.5, 0.5]

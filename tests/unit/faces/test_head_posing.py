@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from mien.compiling import Kernel
 from mien.core import MienError, Parameter, ParameterTable, Pose, exact
-from mien.faces import load_face
+from mien.faces import load_face, shapes
 from mien.faces.head import angles, posing
-from mien.faces.head.moves import Move, add_moves, moves_of, weigh_moves
+from mien.faces.head.moves import Move, moves_of
 from support import in_python, poses
 
 HEAD = load_face("head")
@@ -46,23 +46,24 @@ def test_compiled_posing_is_what_its_source_says(face, monkeypatch):
 def test_many_poses_at_once_are_what_one_is(pose):
     values = np.stack([TABLE.defaults, pose.values, wild(5)])
     for face in (HEAD, HEAD.unsubdivided):
-        for points, row in zip(face.shapes(values), values, strict=True):
+        for points, row in zip(shapes(face, values), values, strict=True):
             # Sums of moves may be added in another order: a few units in the last place of a centimetre.
             np.testing.assert_allclose(points, face.shape(Pose(TABLE, row)).points, rtol=0.0, atol=1e-15)
 
 
 def test_more_poses_than_a_chunk_and_none_at_all():
     values = np.stack([wild(seed) for seed in range(70)])
-    many = HEAD.shapes(values)
+    many = shapes(HEAD, values)
     assert many.shape == (70, HEAD.topology.vertex_count, 3)
     for row in (0, 31, 32, 69):
         np.testing.assert_allclose(many[row], HEAD.shape(Pose(TABLE, values[row])).points, rtol=0.0, atol=1e-15)
-    assert HEAD.shapes(values[:0]).shape == (0, HEAD.topology.vertex_count, 3)
+    np.testing.assert_allclose(shapes(HEAD, values, threads=3), many, rtol=0.0, atol=1e-15)
+    assert shapes(HEAD, values[:0]).shape == (0, HEAD.topology.vertex_count, 3)
 
 
 def test_poses_of_another_table_are_refused():
     with pytest.raises(MienError, match=r"\(N, 131\)"):
-        HEAD.shapes(np.zeros((4, 7)))
+        shapes(HEAD, np.zeros((4, 7)))
     table = ParameterTable((Parameter("nose.length", 0.0, 1.0),))
     with pytest.raises(MienError, match="another kind"):
         HEAD.shape(Pose.neutral(table))
@@ -73,7 +74,7 @@ def test_moves_are_added_as_far_as_their_parameter_is_from_rest():
     right, up = np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])
     moves = moves_of([Move("a", right, 2.0, rest=0.5, span=-0.5), Move("b", up, one_way=True)], table)
     weights, skins = np.empty((2, 2)), np.empty((2, 3))
-    weigh_moves(np.array([[0.0, -1.0], [0.75, 0.25]]), moves.columns, moves.rules, weights)
+    posing.weigh_moves(np.array([[0.0, -1.0], [0.75, 0.25]]), moves.columns, moves.rules, weights)
     assert weights.tolist() == [[2.0, 0.0], [-1.0, 0.25]]
-    add_moves(weights, moves.deltas, np.array([0.0, 0.0, 7.0]), skins)
+    posing.add_moves(weights, moves.deltas, np.array([0.0, 0.0, 7.0]), skins)
     assert skins.tolist() == [[2.0, 0.0, 7.0], [-1.0, 0.25, 7.0]]

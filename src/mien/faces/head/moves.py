@@ -5,9 +5,6 @@ Parke's interpolation between two sets of points is such a move: the difference 
 Source: Parke 1974, section 2.1.
 """
 
-# Numba finds the types of arguments by itself, so that the kernels below name none.
-# mypy: disable-error-code="no-untyped-def,no-untyped-call"
-
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -15,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mien.compiling import kernel
 from mien.core import ParameterTable
 from mien.core.mesh import Ints, Points
 
@@ -65,28 +61,3 @@ def moves_of(moves: Sequence[Move], table: ParameterTable) -> Moves:
         np.array([(move.rest, move.span, move.share, float(move.one_way)) for move in moves]),
         np.stack([move.delta.ravel() for move in moves]),
     )
-
-
-@kernel("f8[:,:], i8[:], f8[:,:], f8[:,:]")
-def weigh_moves(values, columns, rules, weights):
-    """Fill ``weights`` (N, M) with how much of each move is added in the poses ``values`` (N, P)."""
-    for frame in range(len(values)):
-        for k in range(len(columns)):
-            amount = (values[frame, columns[k]] - rules[k, 0]) / rules[k, 1]
-            if rules[k, 3] > 0.0:
-                amount = max(amount, 0.0)
-            weights[frame, k] = amount * rules[k, 2]
-
-
-@kernel("f8[:,:], f8[:,:], f8[:], f8[:,:]")
-def add_moves(weights, deltas, rest, skins):
-    """Fill ``skins`` (N, 3 V) m with the resting one (3 V,) and what the weights (N, M) add, move after move."""
-    for frame in range(len(weights)):
-        skin = skins[frame]
-        for i in range(len(rest)):
-            skin[i] = rest[i]
-        for k in range(len(deltas)):
-            weight, delta = weights[frame, k], deltas[k]
-            if weight != 0.0:
-                for i in range(len(rest)):
-                    skin[i] += weight * delta[i]

@@ -17,7 +17,7 @@ from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
 from .measured import Archive, Floats, Measured
 from .mouth import MouthRegions, smile_moves
-from .moves import Moves, add_moves, moves_of, weigh_moves
+from .moves import Moves, moves_of
 from .muscles import muscle_moves
 from .neck import neck_share
 from .parts import Layout
@@ -119,7 +119,7 @@ class Poser:
     def pose(self, values: Floats, points: Points, normals: Points, colors: Points) -> None:
         """Fill the points (V, 3) m and normals (V, 3) of a pose (P,), and darken its colours (V, 3) by shadows."""
         skins = np.empty((1, len(self._skin)))
-        add_moves(self._weights(values[None]), self._moves.deltas, self._skin, skins)
+        posing.add_moves(self._weights(values[None]), self._moves.deltas, self._skin, skins)
         self._pose(values[None], skins, points[None], normals[None], colors[None])
 
     def pose_many(self, values: Floats, points: Points) -> None:
@@ -134,7 +134,7 @@ class Poser:
     def _weights(self, values: Floats) -> Floats:
         """(N, M) how much of each move is added in poses (N, P)."""
         weights = np.empty((len(values), len(self._moves.columns)))
-        weigh_moves(values, self._moves.columns, self._moves.rules, weights)
+        posing.weigh_moves(values, self._moves.columns, self._moves.rules, weights)
         return weights
 
     def _pose(self, values: Floats, skins: Floats, points: Points, normals: Points, colors: Points) -> None:

@@ -1,4 +1,4 @@
-"""The kernel that poses a head, and the order in which its parameters act.
+"""The kernels that pose a head, and the order in which its parameters act.
 
 Moves of the skin come first (``moves``); what is more than moves follows here: lips, jaw, contact of the lips, the
 lids, which ride on what lies beneath; eyes, lashes, brows, teeth and tongue; then the whole head on its neck.
@@ -197,6 +197,31 @@ def turn_all(parts, neck_share, angles, points, normals):
     for side in range(2):
         first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
         turn_directions(normals[first:last], axes)
+
+
+@kernel("f8[:,:], i8[:], f8[:,:], f8[:,:]")
+def weigh_moves(values, columns, rules, weights):
+    """Fill ``weights`` (N, M) with how much of each move is added in the poses ``values`` (N, P)."""
+    for frame in range(len(values)):
+        for k in range(len(columns)):
+            amount = (values[frame, columns[k]] - rules[k, 0]) / rules[k, 1]
+            if rules[k, 3] > 0.0:
+                amount = max(amount, 0.0)
+            weights[frame, k] = amount * rules[k, 2]
+
+
+@kernel("f8[:,:], f8[:,:], f8[:], f8[:,:]")
+def add_moves(weights, deltas, rest, skins):
+    """Fill ``skins`` (N, 3 V) m with the resting one (3 V,) and what the weights (N, M) add, move after move."""
+    for frame in range(len(weights)):
+        skin = skins[frame]
+        for i in range(len(rest)):
+            skin[i] = rest[i]
+        for k in range(len(deltas)):
+            weight, delta = weights[frame, k], deltas[k]
+            if weight != 0.0:
+                for i in range(len(rest)):
+                    skin[i] += weight * delta[i]
 
 
 # fmt: off
