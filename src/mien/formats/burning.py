@@ -49,7 +49,7 @@ STANDINS: Mapping[str, str] = {
     **dict.fromkeys("„‟″", "”"),
     **{"ß": "ss", "ẞ": "SS", "æ": "ae", "Æ": "AE", "œ": "oe", "Œ": "OE", "ø": "o", "Ø": "O", "đ": "d", "Đ": "D"},
     **{"ł": "l", "Ł": "L", "ı": "i", "ð": "d", "Ð": "D", "þ": "th", "Þ": "Th", "¿": "", "¡": ""},
-    **{"€": "EUR", "£": "GBP", "¥": "JPY", "¢": "c", "×": "x", "÷": "/", "•": "·"},
+    **{"€": "EUR", "£": "GBP ", "¥": "JPY ", "¢": "c", "×": "x", "÷": "/", "•": "·"},
 }
 """What is written for characters that the letters lack; accents are left out by a rule of their own."""
 
