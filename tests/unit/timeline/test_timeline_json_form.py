@@ -26,7 +26,7 @@ TIMELINE = Timeline(
     words=(Cue(0.1, 0.9, "grüß"),),
     phones=(Cue(0.1, 0.2, "ɡ"), Cue(0.2, 0.9, "ʁ")),
     title="A title",
-    text="Grüß — \"x\"\nzwei",
+    text='Grüß — "x"\nzwei',
     seed=7,
 )
 
