@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from mien.core import Drawing, Face, Mesh, Pose, subdivide
+from mien.faces import shapes
 from support import FACE_NAMES, face, poses
 
 every_face = pytest.mark.parametrize("name", FACE_NAMES)
@@ -98,6 +99,24 @@ def test_writing_into_a_shape_does_not_reach_the_face(name, data):
         if array.flags.writeable:
             array[:] = 0.25
     assert as_bytes(subject.shape(pose)) == before
+
+
+@every_face
+@few
+@given(data=st.data())
+def test_many_poses_at_once_are_what_one_is(name, data):
+    table = face(name).parameters
+    values = np.stack([table.defaults, data.draw(poses(table)).values, data.draw(poses(table)).values])
+    for subject in (face(name), face(name).unsubdivided):
+        for points, row in zip(shapes(subject, values, threads=2), values, strict=True):
+            # Sums may be added in another order: some units in the last place of centimetres.
+            one = subject.shape(Pose(table, row))
+            np.testing.assert_allclose(points.ravel(), np.concatenate([a.ravel() for a in places(one)]), atol=1e-15)
+
+
+def places(shape):
+    """The points of a shape, as arrays."""
+    return numbers(shape)[:-1] if isinstance(shape, Drawing) else [shape.points]
 
 
 @every_face

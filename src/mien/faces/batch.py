@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import Drawing, Face, MienError, Pose
+from mien.core import Drawing, Face, MienError, Pose, RangeError
 
 Floats = NDArray[np.float64]
 
@@ -30,7 +30,10 @@ def shapes(face: Face, values: Floats, threads: int = 1) -> Floats:
 
     Raises:
         MienError: the values do not fit the table.
+        RangeError: so many threads cannot be had.
     """
+    if not 1 <= threads <= 256:
+        raise RangeError(f"{threads} threads cannot be had — it is 1 to 256")
     values = np.ascontiguousarray(values, dtype=np.float64)
     if values.ndim != 2 or values.shape[1] != len(face.parameters):
         wanted = f"wanted (N, {len(face.parameters)})"

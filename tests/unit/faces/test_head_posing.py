@@ -1,4 +1,4 @@
-"""Compiled posing is what its source says in Python, and many poses at once are what one after the other are."""
+"""Compiled posing is what its source says in Python; batches in chunks; what is refused."""
 
 import numpy as np
 import pytest
@@ -6,11 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mien.compiling import Kernel
-from mien.core import MienError, Parameter, ParameterTable, Pose, exact
+from mien.core import MienError, Parameter, ParameterTable, Pose, RangeError, exact
 from mien.faces import load_face, shapes
 from mien.faces.head import angles, posing
 from mien.faces.head.moves import Move, moves_of
-from support import in_python, poses
+from support import in_python
 
 HEAD = load_face("head")
 TABLE = HEAD.parameters
@@ -42,15 +42,6 @@ def test_compiled_posing_is_what_its_source_says(face, monkeypatch):
     np.testing.assert_array_equal(compiled.normals, plain.normals)
 
 
-@given(poses(TABLE))
-def test_many_poses_at_once_are_what_one_is(pose):
-    values = np.stack([TABLE.defaults, pose.values, wild(5)])
-    for face in (HEAD, HEAD.unsubdivided):
-        for points, row in zip(shapes(face, values), values, strict=True):
-            # Sums of moves may be added in another order: a few units in the last place of a centimetre.
-            np.testing.assert_allclose(points, face.shape(Pose(TABLE, row)).points, rtol=0.0, atol=1e-15)
-
-
 def test_more_poses_than_a_chunk_and_none_at_all():
     values = np.stack([wild(seed) for seed in range(70)])
     many = shapes(HEAD, values)
@@ -64,6 +55,8 @@ def test_more_poses_than_a_chunk_and_none_at_all():
 def test_poses_of_another_table_are_refused():
     with pytest.raises(MienError, match=r"\(N, 131\)"):
         shapes(HEAD, np.zeros((4, 7)))
+    with pytest.raises(RangeError, match="0 threads"):
+        shapes(HEAD, np.zeros((4, len(TABLE))), threads=0)
     table = ParameterTable((Parameter("nose.length", 0.0, 1.0),))
     with pytest.raises(MienError, match="another kind"):
         HEAD.shape(Pose.neutral(table))
