@@ -26,7 +26,14 @@ C_LIBRARY = {"memset", "memcpy", "memmove", "ceil", "floor", "rint", "trunc", "s
 """What compilers call on their own account; each of these has one right answer, whoever computes it."""
 
 # No ``fastmath``: it would let the processor decide the last bit of a picture.
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": False, "_nrt": False}
+_OPTIONS: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": False,
+    "_nrt": False,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+}
 
 
 def dispatcher(function: Callable[..., Any]) -> Any:
@@ -44,8 +51,7 @@ def build(kernel: Kernel, target: binding.TargetMachine) -> tuple[str, bytes]:
         raise TypeError(f"{kernel.__name__} has no signature")
     given = kernel.signature.arguments
     kinds = [types.int64 if each.ndim else _element(each) for each in given]
-    options = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    compiled = numba.njit(types.int64(*kinds), **options)(_entry(kernel, given, kernel.signature.returns))
+    compiled = numba.njit(types.int64(*kinds), **_OPTIONS)(_entry(kernel, given, kernel.signature.returns))
     (signature,) = compiled.signatures
     module = binding.parse_assembly(compiled.inspect_llvm(signature))
     _check_alone(kernel, module)

@@ -17,7 +17,6 @@ from mien.compiling import kernel
 from .pixels import OFFSETS
 from .reference import BEND, HIDDEN_PX
 from .spans import (
-    BOTTOM,
     END_COLUMN,
     END_ROW,
     FIRST_COLUMN,
@@ -25,13 +24,12 @@ from .spans import (
     LONG_RIGHT,
     ORIGIN_X,
     ORIGIN_Y,
-    TOP,
-    Z_X,
     Z,
     at_sample,
+    find_span,
+    outline,
     pack,
-    span_end,
-    span_start,
+    plane,
 )
 
 
@@ -98,36 +96,38 @@ def draw_samples(shapes, frames, planes, group, t, top, end, first, last, limit,
     left, right = max(frames[t, FIRST_COLUMN], first), min(frames[t, END_COLUMN], last)
     if left >= right:
         return
-    long_right = frames[t, LONG_RIGHT]
-    dz = np.float32(shapes[t, Z_X] * 256.0)
-    dr = np.float32(planes[t, group + 1] * 256.0)
-    dg = np.float32(planes[t, group + 4] * 256.0)
-    db = np.float32(planes[t, group + 7] * 256.0)
-    for row in range(max(frames[t, FIRST_ROW], top), min(frames[t, END_ROW], end)):
+    first_row, end = max(frames[t, FIRST_ROW], top), min(frames[t, END_ROW], end)
+    while first_row < end and before[first_row - top, left] == before[first_row - top, right]:
+        first_row += 1
+    if first_row >= end:
+        return
+    shape, long_right = outline(shapes, t), frames[t, LONG_RIGHT] == 1
+    origin_x, origin_y = shapes[t, ORIGIN_X], shapes[t, ORIGIN_Y]
+    nearness, red = plane(shapes, t, Z), plane(planes, t, group)
+    green, blue = plane(planes, t, group + 3), plane(planes, t, group + 6)
+    dz, dr, dg, db = nearness[3], red[3], green[3], blue[3]
+    for row in range(first_row, end):
         found = before[row - top]
         if found[left] == found[right]:
             continue
         for sample in range(4):
             y, offset = float(row * 256 + OFFSETS[sample][1]), OFFSETS[sample][0]
-            if y < shapes[t, TOP] or y >= shapes[t, BOTTOM]:
+            if y < shape[0] or y >= shape[2]:
                 continue
-            start = span_start(shapes, long_right, t, y, offset, last)
-            stop = span_end(shapes, long_right, t, y, offset, last)
+            start, stop = find_span(shape, long_right, y, offset, last)
             if start >= stop or found[start] == found[stop]:
                 continue
-            dx, dy = float(start * 256 + offset) - shapes[t, ORIGIN_X], y - shapes[t, ORIGIN_Y]
-            z0 = at_sample(shapes, t, Z, dx, dy)
-            r0 = at_sample(planes, t, group, dx, dy)
-            g0 = at_sample(planes, t, group + 3, dx, dy)
-            b0 = at_sample(planes, t, group + 6, dx, dy)
+            dx, dy = float(start * 256 + offset) - origin_x, y - origin_y
+            z0, r0 = at_sample(nearness, dx, dy), at_sample(red, dx, dy)
+            g0, b0 = at_sample(green, dx, dy), at_sample(blue, dx, dy)
             for k in range(found[start], found[stop]):
                 step = np.float32(columns[k] - start)
                 z = z0 + dz * step
                 if z > depth[sample, k]:
                     scale = np.float32(1.0) / z
                     depth[sample, k] = z
-                    red, green, blue = (r0 + dr * step) * scale, (g0 + dg * step) * scale, (b0 + db * step) * scale
-                    color[sample, k] = pack(red, green, blue, limit)
+                    r, g, b = (r0 + dr * step) * scale, (g0 + dg * step) * scale, (b0 + db * step) * scale
+                    color[sample, k] = pack(r, g, b, limit)
 
 
 @kernel()

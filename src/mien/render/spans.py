@@ -122,29 +122,40 @@ def first_sample(x, slope, down, offset):
 
 
 @kernel()
-def span_start(shapes, long_right, t, y, offset, width):
-    """First column of the span of triangle t at height y, 1/256 pixels, whose samples lie at ``offset``."""
-    down = y - shapes[t, TOP]
-    if long_right:
-        if y < shapes[t, MIDDLE]:
-            x = first_sample(shapes[t, UPPER_X], shapes[t, UPPER_SLOPE], down, offset)
-        else:
-            x = first_sample(shapes[t, LOWER_X], shapes[t, LOWER_SLOPE], y - shapes[t, MIDDLE], offset)
+def find_span(shape, long_right, y, offset, width):
+    """First column of a span at height y, 1/256 pixels, whose samples lie at ``offset``, and the one behind its last.
+
+    ``shape`` is the part of a triangle's from TOP on.
+    """
+    top, middle, _, upper_x, long_slope, upper_slope, lower_x, lower_slope = shape
+    far = first_sample(upper_x, long_slope, y - top, offset)
+    if y < middle:
+        near = first_sample(upper_x, upper_slope, y - top, offset)
     else:
-        x = first_sample(shapes[t, UPPER_X], shapes[t, LONG_SLOPE], down, offset)
-    return min(max(x, 0), width)
+        near = first_sample(lower_x, lower_slope, y - middle, offset)
+    left, right = (near, far) if long_right else (far, near)
+    return max(left, 0), min(right, width)
 
 
 @kernel()
-def span_end(shapes, long_right, t, y, offset, width):
-    """The column behind the last one of the same span."""
-    return span_start(shapes, 1 - long_right, t, y, offset, width)
+def outline(shapes, t):
+    """The part of a triangle's shape from TOP on, as numbers: where samples are written, arrays are read anew."""
+    return (
+        shapes[t, TOP], shapes[t, MIDDLE], shapes[t, BOTTOM], shapes[t, UPPER_X], shapes[t, LONG_SLOPE],
+        shapes[t, UPPER_SLOPE], shapes[t, LOWER_X], shapes[t, LOWER_SLOPE],
+    )  # fmt: skip
 
 
 @kernel()
-def at_sample(planes, t, v, dx, dy):
-    """Value v of triangle t at a distance from its corner a, 1/256 pixels."""
-    return np.float32((planes[t, v] + planes[t, v + 2] * dy) + planes[t, v + 1] * dx)
+def plane(planes, t, v):
+    """The plane of a value of a triangle, as numbers: at corner a, change by x, change by y, change by a pixel."""
+    return planes[t, v], planes[t, v + 1], planes[t, v + 2], np.float32(planes[t, v + 1] * 256.0)
+
+
+@kernel()
+def at_sample(plane, dx, dy):
+    """A value at a distance from corner a, 1/256 pixels."""
+    return np.float32((plane[0] + plane[2] * dy) + plane[1] * dx)
 
 
 @kernel()
@@ -160,24 +171,22 @@ def pack(red, green, blue, top):
 @kernel()
 def draw_triangle(shapes, frames, planes, group, t, top, end, width, limit, depth, color):
     """Draw triangle t, with the three values from ``group`` on, into the samples at the centres of rows top:end."""
-    long_right = frames[t, LONG_RIGHT]
-    dz = np.float32(shapes[t, Z_X] * 256.0)
-    dr = np.float32(planes[t, group + 1] * 256.0)
-    dg = np.float32(planes[t, group + 4] * 256.0)
-    db = np.float32(planes[t, group + 7] * 256.0)
+    shape, long_right = outline(shapes, t), frames[t, LONG_RIGHT] == 1
+    origin_x, origin_y = shapes[t, ORIGIN_X], shapes[t, ORIGIN_Y]
+    nearness, red = plane(shapes, t, Z), plane(planes, t, group)
+    green, blue = plane(planes, t, group + 3), plane(planes, t, group + 6)
+    dz, dr, dg, db = nearness[3], red[3], green[3], blue[3]
     for row in range(max(frames[t, FIRST_ROW], top), min(frames[t, END_ROW], end)):
         y = float(row * 256 + CENTRE)
-        if y < shapes[t, TOP] or y >= shapes[t, BOTTOM]:
+        if y < shape[0] or y >= shape[2]:
             continue
-        left = span_start(shapes, long_right, t, y, CENTRE, width)
-        count = span_end(shapes, long_right, t, y, CENTRE, width) - left
+        left, right = find_span(shape, long_right, y, CENTRE, width)
+        count = right - left
         if count <= 0:
             continue
-        dx, dy = float(left * 256 + CENTRE) - shapes[t, ORIGIN_X], y - shapes[t, ORIGIN_Y]
-        z0 = at_sample(shapes, t, Z, dx, dy)
-        r0 = at_sample(planes, t, group, dx, dy)
-        g0 = at_sample(planes, t, group + 3, dx, dy)
-        b0 = at_sample(planes, t, group + 6, dx, dy)
+        dx, dy = float(left * 256 + CENTRE) - origin_x, y - origin_y
+        z0, r0 = at_sample(nearness, dx, dy), at_sample(red, dx, dy)
+        g0, b0 = at_sample(green, dx, dy), at_sample(blue, dx, dy)
         first, wanted = np.uint64((row - top) * width + left), np.int32(count)
         # Whole steps of four, the last of them half in vain, are faster than a remainder: there is room behind the end.
         for x in range(np.uint64((count + 3) & ~3)):

@@ -18,10 +18,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Ints32 = NDArray[np.int32]
 
-LINE_SHARE = 1.0 / 900.0
+LINE_SHARE = 1.0 / 700.0
 """Width of a line as a share of the picture's shorter side, but never less than ``LEAST_PX`` of the raster."""
 
-LEAST_PX = 1.0
+LEAST_PX = 1.2
 
 LIFT_M = 0.0012
 """How much nearer to the viewer than its polygons an edge is drawn, metres, so that no half of it sinks in."""

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+
+import numba
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -139,6 +143,13 @@ def test_fan_of_slivers_leaves_no_crack() -> None:
     assert (draw_mesh(mesh, unit_scene(64))[..., 3] == 255).all()
 
 
+@cache
+def first_sample() -> Callable[[float, float, float, float], int]:
+    """The kernel as Numba compiles it, so that it can be called from here."""
+    compiled: Callable[[float, float, float, float], int] = numba.njit(error_model="numpy")(spans.first_sample.function)
+    return compiled
+
+
 raster = st.integers(-2048, 2**23 + 2048)
 
 
@@ -156,12 +167,11 @@ def test_ends_of_compiled_spans_are_exact_in_the_largest_pictures(
     down = by - ay
     wanted = -(-((ax - offset) * down + (height - ay) * (bx - ax)) // (256 * down))
     slope = float(bx - ax) / (256.0 * down)
-    assert spans.first_sample.dispatcher(float(ax), slope, float(height - ay), float(offset)) == wanted
+    assert first_sample()(float(ax), slope, float(height - ay), float(offset)) == wanted
 
 
 def test_ends_of_compiled_spans_on_a_sample_belong_to_the_pixel() -> None:
-    first_sample = spans.first_sample.dispatcher
     for column in (0, 1, 16383, 32767):
         x = column * 256 + 128
-        assert first_sample(float(x), 0.0, 128.0, 128.0) == column
-        assert first_sample(float(x + 1), 0.0, 128.0, 128.0) == column + 1
+        assert first_sample()(float(x), 0.0, 128.0, 128.0) == column
+        assert first_sample()(float(x + 1), 0.0, 128.0, 128.0) == column + 1
