@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 
 from mien.core import UnknownNameError
@@ -73,6 +74,37 @@ class Codec:
     def sound(self) -> bool:
         """Whether it has a sound stream."""
         return bool(self.voice)
+
+
+@dataclass(frozen=True)
+class FilmPlan:
+    """What is known of a film before its first frame.
+
+    Attributes:
+        codec: its row.
+        rate: frames a second.
+        size_px: (width, height) of a frame.
+        transparent: whether there are pixels that are not opaque.
+    """
+
+    codec: Codec
+    rate: Fraction
+    size_px: tuple[int, int]
+    transparent: bool
+
+    @property
+    def layout(self) -> str:
+        """FFmpeg's name of the layout of pixels that the encoder is given."""
+        return self.codec.clear_pixels if self.transparent else self.codec.pixels
+
+    @property
+    def options(self) -> dict[str, str]:
+        """Of the encoder of pictures."""
+        return {**self.codec.options, **(self.codec.clear_options if self.transparent else {})}
+
+    def ticks(self, number: int) -> int:
+        """When a frame begins, in the ticks of the container."""
+        return round(number * self.codec.ticks_per_s / self.rate) if self.codec.ticks_per_s else number
 
 
 _MOVIE = {"movflags": "+faststart+use_metadata_tags"}

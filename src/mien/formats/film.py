@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mien.core import MienError, Sound
 
 from .atomic import full_disk_error, is_full_disk, writing
-from .codecs import Codec, find_codec
+from .codecs import Codec, FilmPlan, find_codec
 from .film_apng import ApngFilm
 from .film_frames import make_frame, make_frame_in_colors
 from .film_notes import append_comment
@@ -82,22 +82,19 @@ def write_film(
         MienError: there is no frame, the encoder fails, or the place cannot be written.
     """
     check_film(path, fps, size_px, transparent=transparent)
-    rate, codec, notes = check_rate(fps), find_codec(path), notes or {}
-    voice = sound if codec.sound else None
-    held = _held(_checked(frames, size_px), rate, voice)
-    shown = _numbered(runs(held) if variable or codec.spaced else ((pixels, 1) for pixels in held))
+    plan, notes = FilmPlan(find_codec(path), check_rate(fps), size_px, transparent), notes or {}
+    voice = sound if plan.codec.sound else None
+    held = _held(_checked(frames, size_px), plan.rate, voice)
+    shown = _numbered(runs(held) if variable or plan.codec.spaced else ((pixels, 1) for pixels in held))
     with writing(path) as temporary:
-        with (
-            _encoder_errors(path, codec),
-            _open(temporary, codec, rate, size_px, transparent, voice, notes) as film,
-        ):
+        with _encoder_errors(path, plan.codec), _open(temporary, plan, voice, notes) as film:
             count = 0
             for pixels, start, count in shown:
                 film.show(pixels, start, count)
             if not count:
                 raise MienError(f"{path}: a film needs one frame at least, got none")
             film.finish()
-        if notes and codec.container == "gif":
+        if notes and plan.codec.container == "gif":
             append_comment(temporary, notes)
 
 
@@ -144,23 +141,16 @@ def _encoder_errors(path: Path | str, codec: Codec) -> Iterator[None]:
 
 
 @contextmanager
-def _open(
-    path: Path,
-    codec: Codec,
-    rate: Fraction,
-    size_px: tuple[int, int],
-    transparent: bool,
-    sound: Sound | None,
-    notes: Mapping[str, str],
-) -> Iterator[Film]:
-    if codec.container in _OWN:
+def _open(path: Path, plan: FilmPlan, sound: Sound | None, notes: Mapping[str, str]) -> Iterator[Film]:
+    kind = plan.codec.container
+    if kind in _OWN:
         with path.open("r+b") as file:
-            yield _OWN[codec.container](file, codec, rate, size_px, transparent, notes)
+            yield _OWN[kind](file, plan, notes)
         return
-    options = {**codec.container_options, "fflags": "+bitexact"}
-    with av.open(str(path), "w", format=codec.container, options=options) as container:
+    options = {**plan.codec.container_options, "fflags": "+bitexact"}
+    with av.open(str(path), "w", format=kind, options=options) as container:
         container.metadata.update({key.lower(): value for key, value in notes.items()})
-        yield _ContainerFilm(container, codec, rate, size_px, transparent, sound)
+        yield _ContainerFilm(container, plan, sound)
 
 
 _OWN: dict[str, type[ApngFilm] | type[WebpFilm]] = {"apng": ApngFilm, "webp": WebpFilm}
@@ -170,30 +160,21 @@ _OWN: dict[str, type[ApngFilm] | type[WebpFilm]] = {"apng": ApngFilm, "webp": We
 class _ContainerFilm:
     """A film in one of FFmpeg's containers."""
 
-    def __init__(
-        self,
-        container: Any,
-        codec: Codec,
-        rate: Fraction,
-        size_px: tuple[int, int],
-        transparent: bool,
-        sound: Sound | None,
-    ) -> None:
-        self._container, self._rate = container, rate
-        self._layout = codec.clear_pixels if transparent else codec.pixels
-        self._quantiser = Quantiser(transparent) if self._layout == "pal8" else None
-        self._tick = 1 / Fraction(codec.ticks_per_s or rate)
-        self._stream = _add_pictures(container, codec, rate, size_px, transparent)
-        self._voice = SoundStream(container, sound, codec) if sound is not None else None
+    def __init__(self, container: Any, plan: FilmPlan, sound: Sound | None) -> None:
+        self._container, self._plan = container, plan
+        self._quantiser = Quantiser(plan.transparent) if plan.layout == "pal8" else None
+        self._tick = 1 / Fraction(plan.codec.ticks_per_s or plan.rate)
+        self._stream = _add_pictures(container, plan)
+        self._voice = SoundStream(container, sound, plan.codec) if sound is not None else None
         self._last: tuple[Pixels, VideoFrame] | None = None
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         frame = self._make(pixels)
-        frame.pts, frame.time_base = self._ticks(start), self._tick
-        frame.duration = self._ticks(start + count) - frame.pts
+        frame.pts, frame.time_base = self._plan.ticks(start), self._tick
+        frame.duration = self._plan.ticks(start + count) - frame.pts
         self._container.mux(self._stream.encode(frame))
         if self._voice:
-            self._voice.play_until((start + count) / self._rate)
+            self._voice.play_until((start + count) / self._plan.rate)
 
     def finish(self) -> None:
         self._container.mux(self._stream.encode(None))
@@ -206,19 +187,16 @@ class _ContainerFilm:
             if self._quantiser:
                 frame = make_frame_in_colors(pixels, self._quantiser)
             else:
-                frame = make_frame(pixels, self._layout)
+                frame = make_frame(pixels, self._plan.layout)
             self._last = pixels, frame
         return self._last[1]
 
-    def _ticks(self, number: int) -> int:
-        return round(Fraction(number) / self._rate / self._tick)
 
-
-def _add_pictures(container: Any, codec: Codec, rate: Fraction, size_px: tuple[int, int], transparent: bool) -> Any:
-    options = {**codec.options, **(codec.clear_options if transparent else {}), "flags": "+bitexact+frame_duration"}
-    stream = container.add_stream(codec.picture, rate=rate, options=options)
-    stream.width, stream.height = ((side + side % 2 if codec.even else side) for side in size_px)
-    stream.pix_fmt = codec.clear_pixels if transparent else codec.pixels
+def _add_pictures(container: Any, plan: FilmPlan) -> Any:
+    options = {**plan.options, "flags": "+bitexact+frame_duration"}
+    stream = container.add_stream(plan.codec.picture, rate=plan.rate, options=options)
+    stream.width, stream.height = ((side + side % 2 if plan.codec.even else side) for side in plan.size_px)
+    stream.pix_fmt = plan.layout
     context = stream.codec_context
     context.thread_count = ENCODER_THREADS
     if stream.pix_fmt.startswith("yuv"):

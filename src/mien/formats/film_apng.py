@@ -17,7 +17,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from .codecs import Codec
+from .codecs import FilmPlan
 from .film_stills import StillEncoder
 
 Pixels = NDArray[np.uint8]
@@ -34,20 +34,12 @@ SHORT = 65535
 class ApngFilm:
     """An animation that is shown again and again."""
 
-    def __init__(
-        self,
-        file: BinaryIO,
-        codec: Codec,
-        rate: Fraction,
-        size_px: tuple[int, int],
-        transparent: bool,
-        notes: Mapping[str, str],
-    ) -> None:
-        self._file, self._rate, self._size_px = file, rate, size_px
-        self._encoder = StillEncoder(codec, rate, size_px, transparent)
+    def __init__(self, file: BinaryIO, plan: FilmPlan, notes: Mapping[str, str]) -> None:
+        self._file, self._plan = file, plan
+        self._encoder = StillEncoder(plan)
         self._pictures = self._number = 0
         file.write(SIGNATURE)
-        self._write(b"IHDR", struct.pack(">IIBBBBB", *size_px, 8, RGBA if transparent else RGB, 0, 0, 0))
+        self._write(b"IHDR", struct.pack(">IIBBBBB", *plan.size_px, 8, RGBA if plan.transparent else RGB, 0, 0, 0))
         self._count_place = file.tell()
         self._write_count()
         for key, value in notes.items():
@@ -56,9 +48,9 @@ class ApngFilm:
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         """Adds a picture that stays for ``count`` frames."""
-        delay = Fraction(count) / self._rate
+        delay = Fraction(count) / self._plan.rate
         delay = delay.limit_denominator(SHORT // (1 + int(delay)))
-        place = struct.pack(">IIII", *self._size_px, 0, 0)
+        place = struct.pack(">IIII", *self._plan.size_px, 0, 0)
         # The last two: nothing is cleared after a picture, and it takes the place of the one before.
         self._write(b"fcTL", self._next() + place + struct.pack(">HHBB", delay.numerator, delay.denominator, 0, 0))
         for data in _image_data(self._encoder.encode(pixels)):

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from typing import BinaryIO
 
 import numpy as np
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 from mien.core import MienError
 
-from .codecs import Codec
+from .codecs import FilmPlan
 from .film_notes import format_xmp
 from .film_stills import StillEncoder
 
@@ -37,20 +36,12 @@ MOST_BYTES = 2**32 - 2
 class WebpFilm:
     """An animation that is shown again and again."""
 
-    def __init__(
-        self,
-        file: BinaryIO,
-        codec: Codec,
-        rate: Fraction,
-        size_px: tuple[int, int],
-        transparent: bool,
-        notes: Mapping[str, str],
-    ) -> None:
-        self._file, self._codec, self._rate = file, codec, rate
-        self._size = b"".join(_int24(side - 1) for side in size_px)
-        self._encoder = StillEncoder(codec, rate, size_px, transparent)
+    def __init__(self, file: BinaryIO, plan: FilmPlan, notes: Mapping[str, str]) -> None:
+        self._file, self._plan = file, plan
+        self._size = b"".join(_int24(side - 1) for side in plan.size_px)
+        self._encoder = StillEncoder(plan)
         self._notes = format_xmp(notes) if notes else b""
-        flags = ANIMATED | (ALPHA if transparent else 0) | (XMP if notes else 0)
+        flags = ANIMATED | (ALPHA if plan.transparent else 0) | (XMP if notes else 0)
         file.write(b"RIFF\0\0\0\0WEBP")
         self._write(b"VP8X", struct.pack("<I", flags) + self._size)
         # Background none, repeated for ever.
@@ -58,13 +49,13 @@ class WebpFilm:
 
     def show(self, pixels: Pixels, start: int, count: int) -> None:
         """Adds a picture that stays for ``count`` frames from frame ``start`` on."""
-        begin, end = (round(number * self._codec.ticks_per_s / self._rate) for number in (start, start + count))
+        stays = self._plan.ticks(start + count) - self._plan.ticks(start)
         picture = b"".join(
             _chunk(name, data)
             for name, data in _chunks(self._encoder.encode(pixels))
             if name in (b"ALPH", b"VP8 ", b"VP8L")
         )
-        self._write(b"ANMF", bytes(6) + self._size + _int24(end - begin) + bytes([REPLACE]) + picture)
+        self._write(b"ANMF", bytes(6) + self._size + _int24(stays) + bytes([REPLACE]) + picture)
 
     def finish(self) -> None:
         """Writes the notes and the length of the file."""
@@ -76,7 +67,9 @@ class WebpFilm:
 
     def _write(self, name: bytes, data: bytes) -> None:
         if self._file.tell() + len(data) > MOST_BYTES:
-            raise MienError(f"{self._codec.suffix}: the film is longer than 4 GB — write .webm, or smaller pictures")
+            raise MienError(
+                f"{self._plan.codec.suffix}: the film is longer than 4 GB — write .webm, or smaller pictures"
+            )
         self._file.write(_chunk(name, data))
 
 
