@@ -33,7 +33,7 @@ def gap_mm(values):
 def test_a_jaw_at_ninety_degrees_points_straight_down():
     axis = np.array([-0.04, 0.01])
     chin = np.array([[0.02, -0.04, 0.11]])
-    in_python(rotate_jaw)(chin, 90.0, axis, np.ones(1))
+    in_python(rotate_jaw)(chin, 90.0, axis, np.ones(1), np.empty((2, 1)))
     # 0.1 in front of the axis and level with it: a quarter turn that opens brings it 0.1 below the axis.
     np.testing.assert_allclose(chin, [[0.02, -0.04 - 0.1, 0.01]], atol=1e-15)
 

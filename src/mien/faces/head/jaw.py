@@ -22,7 +22,7 @@ def swing(y, z, axis, sine, cosine):
 
 
 @kernel()
-def rotate_jaw(points, angle_deg, axis, share):
+def rotate_jaw(points, angle_deg, axis, share, waves):
     """Swing points (V, 3) m open by an angle.
 
     Args:
@@ -30,28 +30,29 @@ def rotate_jaw(points, angle_deg, axis, share):
         angle_deg: positive opens the mouth.
         axis: (2,) m, y and z of the axis, which runs along x.
         share: (V,) share of the angle; 1 turns a point with the jaw, 0 leaves it where it is.
+        waves: (2, V), overwritten by sines and cosines.
 
     Source: Parke 1974, section 3.3.
     """
     if angle_deg == 0.0:
         return
-    last, sine, cosine = 0.0, 0.0, 1.0
+    sines, cosines = waves[0], waves[1]
+    for v in range(len(share)):
+        sine, cosine = sin_cos((angle_deg * DEG) * share[v])
+        sines[v], cosines[v] = sine, cosine
     for v in range(len(points)):
-        if share[v] != last:
-            last = share[v]
-            sine, cosine = sin_cos((angle_deg * DEG) * last)
-        points[v, 1], points[v, 2] = swing(points[v, 1], points[v, 2], axis, sine, cosine)
+        points[v, 1], points[v, 2] = swing(points[v, 1], points[v, 2], axis, sines[v], cosines[v])
 
 
 @kernel()
-def open_jaw(points, angle_deg, axis, share, open_angle_deg, residual):
+def open_jaw(points, angle_deg, axis, share, open_angle_deg, residual, waves):
     """Open the jaw of the skin (V, 3) m: rotation, then what it misses of the measured open mouth (throat, corners).
 
     ``residual`` (V, 3) m is what is missed at ``open_angle_deg``.
     """
     if angle_deg == 0.0:
         return
-    rotate_jaw(points, angle_deg, axis, share)
+    rotate_jaw(points, angle_deg, axis, share, waves)
     opened = angle_deg / open_angle_deg
     for v in range(len(points)):
         for axis_number in range(3):

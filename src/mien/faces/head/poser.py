@@ -140,7 +140,8 @@ class Poser:
     def _pose(self, values: Floats, skins: Floats, points: Points, normals: Points, colors: Points) -> None:
         count = len(values)
         skins = skins.reshape(count, -1, 3)
-        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, *skins.shape[1:])))
+        size = skins.shape[1]
+        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)))
         flat = points.reshape(count, -1)
         controls = np.take(values, self._columns, axis=1)
         posing.pose_heads(controls, *self._constants, *scratch, skins, points, flat, normals, colors)

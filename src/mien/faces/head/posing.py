@@ -72,7 +72,7 @@ def aim_eyes(c, balls, kappa_deg, angles, gaze):
 
 
 @kernel()
-def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch):
+def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
     """Change a skin (S, 3) m, to which moves are added already: lips, jaw, contact of the lips, lids.
 
     Args:
@@ -84,6 +84,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch):
         contacts: bridge, numbers, shares, gaps: of ``close_lips``.
         lids: numbers, polar and rest of ``move_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
+        waves: (2, S), overwritten.
     """
     rows, regions, tuck_share = lips
     axis, share, open_angle_deg, residual = jaw
@@ -93,7 +94,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch):
     move_lips(skin, rows, regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
     if c[TUCK] != 0.0:
         copy_rows(skin, rows, before_jaw)
-    open_jaw(skin, c[JAW], axis, share, open_angle_deg, residual)
+    open_jaw(skin, c[JAW], axis, share, open_angle_deg, residual, waves)
     if c[TUCK] != 0.0:
         tuck_lip(skin, before_jaw, rows, tuck_share, c[TUCK])
     close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, numbers, shares, gaps, moves)
@@ -238,7 +239,7 @@ def add_moves(weights, deltas, rest, skins):
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:], f8[:,:], "  # inside of the mouth
     "i8, f8[:], "  # lip's edge, neck
-    "f8[:,:], f8[:,:], f8[:,:,:], "  # scratch
+    "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], "  # scratch
     "f8[:,:,:], f8[:,:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
 )
 def pose_heads(
@@ -254,7 +255,7 @@ def pose_heads(
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tip_share, chin,
     lip_edge, neck_share,
-    gaze, radii, scratch,
+    gaze, radii, scratch, waves,
     skins, points, flat, normals, colors,
 ):
     """Fill the points of N heads, and the normals and shadows of as many as there is room for.
@@ -271,7 +272,7 @@ def pose_heads(
         carried: tip_share, chin: of ``place_inside``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
-        gaze: (2, 3), radii (7, 2), scratch (2, S, 3): overwritten.
+        gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S): overwritten.
         skins: (N, S, 3) m with their moves; changed.
         points: (N, V, 3) m, filled.
         flat: (N, 3 V), the same memory: a run of numbers is copied several at a time.
@@ -286,7 +287,7 @@ def pose_heads(
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
         contacts = bridge, contact_numbers, contact_shares, contact_gaps
         lids = lid_numbers, lid_polar, lid_rest, rest_opening
-        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch)
+        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
         for v in range(len(source)):
             for axis in range(3):
                 out[v, axis] = skin[source[v], axis]
