@@ -23,6 +23,8 @@ class BatchFace(Protocol):
 def shapes(face: Face, values: Floats, threads: int = 1) -> Floats:
     """The points of many poses of a face, to rounding those of ``shape``: (N, V, 3) m, or (N, V, 2) of a drawing.
 
+    A head's take some 150 KB a pose.
+
     Args:
         face: any.
         values: (N, P), a pose of its table a row.
