@@ -100,10 +100,10 @@ def light_at(x, y, z, nx, ny, nz, ex, ey, ez, strength, power, lamps, ambient, c
     return dr, dg, db, hr, hg, hb
 
 
-@kernel("i8[:], i8[:], b1[:], i4[:,:], i4[:,:], i4[:,:], u1[:]")
-def choose_shades(triangles, polygon_of_triangle, facing, front, back, shade_of, needed):
-    """Fill ``shade_of`` (n, 3) for the n triangles, and set ``needed`` (N + M,) where a shade is one of them."""
-    for n in range(len(triangles)):
+@kernel("i8[:], i8[:], b1[:], i4[:,:], i4[:,:], i8, i8, i4[:,:], u1[:]")
+def choose_shades(triangles, polygon_of_triangle, facing, front, back, first, last, shade_of, needed):
+    """Fill ``shade_of`` (n, 3) first:last, and set ``needed`` (N + M,) where a shade is one of them."""
+    for n in range(first, last):
         t = triangles[n]
         shows_front = facing[polygon_of_triangle[t]]
         for k in range(3):

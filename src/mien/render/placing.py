@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from mien.compiling import kernel
+from mien.core.exact import GRID_M
 
 from .triangles import BACK, FRONT, HIDDEN
 
@@ -15,15 +16,17 @@ CUT = 3
 """Beside what ``triangles`` says of a side: the border of the picture cuts it."""
 
 
-@kernel("f8[:,:], f8[:,:], f8[:], f8[:], i8, i8, f8[:,:], u1[:], i4[:,:], f8[:]")
-def place_points(points, axes, position, settings, first, last, view, codes, places, inverse):
-    """Fill rows first:last: the camera's frame, the planes a point lies outside of, its place and 1 / depth.
+@kernel("f8[:,:], f8[:,:], f8[:], f8[:], i8, i8, f8[:,:], f8[:,:], u1[:], i4[:,:], f8[:]")
+def place_points(given, axes, position, settings, first, last, points, view, codes, places, inverse):
+    """Fill rows first:last: points on their grid, in the camera's frame, planes they lie outside of, place, 1 / depth.
 
     ``axes`` (3, 3) are right, up and forward; ``settings`` are scale, width, height, near plane, steps a pixel, limit.
     """
     scale, near, steps, limit = settings[0], settings[3], settings[4], settings[5]
     half_width, half_height = settings[1] * 0.5, settings[2] * 0.5
     for v in range(first, last):
+        for k in range(3):
+            points[v, k] = np.rint(given[v, k] * (1.0 / GRID_M)) * GRID_M
         x, y, z = points[v, 0] - position[0], points[v, 1] - position[1], points[v, 2] - position[2]
         across = (x * axes[0, 0] + y * axes[0, 1]) + z * axes[0, 2]
         above = (x * axes[1, 0] + y * axes[1, 1]) + z * axes[1, 2]
@@ -49,10 +52,10 @@ def place_points(points, axes, position, settings, first, last, view, codes, pla
         places[v, 1] = np.int32(np.rint(min(max(down * steps, -limit), limit)))
 
 
-@kernel("i8[:,:], u1[:], i4[:,:], b1[:], u1[:]")
-def see_sides(triangles, codes, places, two_sided, sides):
-    """Fill ``sides`` (T,): what is seen of a triangle, CUT where the picture's border cuts it."""
-    for t in range(triangles.shape[1]):
+@kernel("i8[:,:], u1[:], i4[:,:], b1[:], i8, i8, u1[:]")
+def see_sides(triangles, codes, places, two_sided, first, last, sides):
+    """Fill ``sides`` first:last: what is seen of a triangle, CUT where the picture's border cuts it."""
+    for t in range(first, last):
         a, b, c = triangles[0, t], triangles[1, t], triangles[2, t]
         if codes[a] | codes[b] | codes[c]:
             sides[t] = HIDDEN if codes[a] & codes[b] & codes[c] else CUT

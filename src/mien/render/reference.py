@@ -103,14 +103,15 @@ def _draw(
     (ax, ay), (bx, by), (cx, cy) = places.astype(np.float64)
     share = 1.0 / ((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
 
-    def over_raster(at_a: float, at_b: float, at_c: float) -> Floats32:
+    def over_raster(ends: NDArray[np.float64], kind: type[np.float32 | np.float64]) -> Floats32:
+        at_a, at_b, at_c = ends
         along, across = at_b - at_a, at_c - at_a
-        slope_x = along * ((cy - ay) * share) - across * ((by - ay) * share)
-        slope_y = across * ((bx - ax) * share) - along * ((cx - ax) * share)
-        start = (at_a + slope_y * (y - ay)) + slope_x * (x - ax)
+        slope_x = kind(along * ((cy - ay) * share) - across * ((by - ay) * share))
+        slope_y = kind(across * ((bx - ax) * share) - along * ((cx - ax) * share))
+        start = (kind(at_a) + slope_y * (y - ay).astype(kind)) + slope_x * (x - ax).astype(kind)
         return start.astype(np.float32)[:, None] + np.float32(slope_x * SUBPIXELS) * steps
 
-    z = over_raster(*inverse)
+    z = over_raster(inverse, np.float64)
     near = covered & (z > depth[rows, columns])
     depth[rows, columns][near] = z[near]
     scale = np.float32(1.0) / z[near]
@@ -118,7 +119,7 @@ def _draw(
         most = np.float32(WHOLE if group else ONE)
         for v in range(3):
             # A value over depth is linear on the screen, the value is not. Source: Blinn 1992.
-            value = over_raster(*(values[:, 3 * group + v] * inverse))[near] * scale
+            value = over_raster(values[:, 3 * group + v] * inverse, np.float32)[near] * scale
             samples[rows, columns, v][near] = np.clip(value, np.float32(0.0), most).astype(np.int64)
         samples[rows, columns, 3][near] = ONE
 

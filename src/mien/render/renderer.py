@@ -59,6 +59,7 @@ class Renderer:
         self._rasteriser = rasteriser
         self._camera = Camera.of(scene)
         self._behind = to_samples(background(scene))
+        self._behind_words = to_words(self._behind), encode(self._behind).view(np.uint32).reshape(-1)
         self._light_settings = _light_settings(scene, self._camera)
         self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
         self._room = _Room(0, 0)
@@ -117,9 +118,8 @@ class Renderer:
         viewer = np.array([*scene.position, scene.gloss])
         self._share(lighting.sum_normals, [(*places, a, b, normals, facing, viewer) for a, b in self._parts(polygons)])
         shade_of, needed = np.empty((len(triangles), 3), dtype=np.int32), np.zeros(shades, dtype=np.uint8)
-        lighting.choose_shades(
-            triangles, topology.polygon_of_triangle, facing, plan.triangle_front, plan.triangle_back, shade_of, needed
-        )
+        sides = (triangles, topology.polygon_of_triangle, facing, plan.triangle_front, plan.triangle_back)
+        self._share(lighting.choose_shades, [(*sides, a, b, shade_of, needed) for a, b in self._parts(len(triangles))])
         own = own_normals(mesh) if len(plan.round) else normals
         settings = (own, lamps, ambient, viewer, scene.cosine_power, *plan.columns)
         sums = (plan.normal_sum.starts, plan.normal_sum.columns)
@@ -139,22 +139,22 @@ class Renderer:
     def _place(self, points: NDArray[np.float64], plan: Plan, camera: Camera) -> Placed:
         """What ``triangles.place_mesh`` says, by compiled code."""
         count, triangles = len(points), plan.triangles.shape[1]
-        view, inverse = np.empty((count, 3)), np.empty(count)
+        rounded, view, inverse = np.empty((count, 3)), np.empty((count, 3)), np.empty(count)
         codes, places = np.empty(count, dtype=np.uint8), np.empty((count, 2), dtype=np.int32)
         axes = np.array([camera.right, camera.up, camera.forward])
         settings = np.array([camera.scale, camera.width, camera.height, NEAR_M, SUBPIXELS, FAR_OUT])
-        constant = (points, axes, np.array(camera.position), settings)
-        self._share(
-            placing.place_points, [(*constant, a, b, view, codes, places, inverse) for a, b in self._parts(count)]
-        )
+        constant = (np.ascontiguousarray(points), axes, np.array(camera.position), settings)
+        filled = (rounded, view, codes, places, inverse)
+        self._share(placing.place_points, [(*constant, a, b, *filled) for a, b in self._parts(count)])
         sides, borders = np.empty(triangles, dtype=np.uint8), np.empty(triangles, dtype=np.uint8)
-        placing.see_sides(plan.triangles, codes, places, plan.triangle_two_sided, sides)
+        seen_by = (plan.triangles, codes, places, plan.triangle_two_sided)
+        self._share(placing.see_sides, [(*seen_by, a, b, sides) for a, b in self._parts(triangles)])
         whole, cut = np.empty(triangles, dtype=np.int64), np.empty(triangles, dtype=np.int64)
         corners, counts = np.empty((triangles, 3), dtype=np.int32), np.empty(2, dtype=np.int64)
         placing.sort_out(plan.triangles, plan.neighbours, sides, whole, cut, corners, borders, counts)
         seen, crossing = counts.tolist()
         drawn = np.concatenate([whole[:seen], cut[:crossing]])
-        return Placed(view, places, inverse, drawn, corners[:seen], borders[:seen])
+        return Placed(rounded, view, places, inverse, drawn, corners[:seen], borders[:seen])
 
     def _multiply(self, matrix: SparseMatrix, values: Sequence[NDArray[np.float64]]) -> Sequence[NDArray[np.float64]]:
         """What ``SparseMatrix.apply`` says of one or two values (C, 3)."""
@@ -192,11 +192,10 @@ class Renderer:
         if not self._buffers or len(self._buffers[0][1]) != groups:
             self._buffers = [_buffers(width, groups, smooth) for _ in range(self.threads)]
         picture = np.empty((height, width), dtype=np.uint32)
-        plain = encode(self._behind).view(np.uint32).reshape(-1)
         limits = np.array([ONE, *[WHOLE] * (groups - 1)], dtype=np.float32)
         mesh = (triangles.places, triangles.inverse, triangles.corners, triangles.borders)
         frame = (*mesh, *room, counts, members, limits)
-        behind = (to_words(self._behind), plain, *self._light_settings, srgb_codes())
+        behind = (*self._behind_words, *self._light_settings, srgb_codes())
         self._share(
             bands.draw_bands,
             [
@@ -220,7 +219,7 @@ class _Room:
     def __init__(self, count: int, columns: int) -> None:
         self.shapes = np.empty((count, spans.SHAPE_COLUMNS))
         self.frames = np.empty((count, spans.FRAME_COLUMNS), dtype=np.int32)
-        self.planes = np.empty((count, 3 * columns))
+        self.planes = np.empty((count, 3 * columns), dtype=np.float32)
 
 
 def _buffers(width: int, groups: int, smooth: bool) -> tuple[NDArray[np.generic], ...]:

@@ -118,8 +118,8 @@ def draw_samples(shapes, frames, planes, group, t, top, end, first, last, limit,
             if start >= stop or found[start] == found[stop]:
                 continue
             dx, dy = float(start * 256 + offset) - origin_x, y - origin_y
-            z0, r0 = at_sample(nearness, dx, dy), at_sample(red, dx, dy)
-            g0, b0 = at_sample(green, dx, dy), at_sample(blue, dx, dy)
+            z0, dx, dy = at_sample(nearness, dx, dy), np.float32(dx), np.float32(dy)
+            r0, g0, b0 = at_sample(red, dx, dy), at_sample(green, dx, dy), at_sample(blue, dx, dy)
             for k in range(found[start], found[stop]):
                 step = np.float32(columns[k] - start)
                 z = z0 + dz * step

@@ -36,12 +36,13 @@ FIRST_ROW, END_ROW, FIRST_COLUMN, END_COLUMN, LONG_RIGHT = range(5)
 FRAME_COLUMNS = 5
 
 
-@kernel("i4[:,:], f8[:], i4[:,:], f8[:,:], i4[:,:], i8, i8, f8[:,:], i4[:,:], f8[:,:]")
+@kernel("i4[:,:], f8[:], i4[:,:], f8[:,:], i4[:,:], i8, i8, f8[:,:], i4[:,:], f4[:,:]")
 def set_up(places, inverse, corners, values, value_of, first, last, shapes, frames, planes):
     """Fill ``shapes`` (T, 13), ``frames`` (T, 5), ``planes`` (T, 3 K) for triangles first:last.
 
     Planes are those of each value over depth, which is linear on the screen where the value is not: at corner a, change
-    by x, change by y, in 1/256 pixels. Source: Blinn 1992 (perspective-correct interpolation).
+    by x, change by y, in 1/256 pixels;
+    single precision is enough for them. Source: Blinn 1992 (perspective-correct interpolation).
     """
     for t in range(first, last):
         i, j, k = corners[t, 0], corners[t, 1], corners[t, 2]
@@ -185,8 +186,8 @@ def draw_triangle(shapes, frames, planes, group, t, top, end, width, limit, dept
         if count <= 0:
             continue
         dx, dy = float(left * 256 + CENTRE) - origin_x, y - origin_y
-        z0, r0 = at_sample(nearness, dx, dy), at_sample(red, dx, dy)
-        g0, b0 = at_sample(green, dx, dy), at_sample(blue, dx, dy)
+        z0, dx, dy = at_sample(nearness, dx, dy), np.float32(dx), np.float32(dy)
+        r0, g0, b0 = at_sample(red, dx, dy), at_sample(green, dx, dy), at_sample(blue, dx, dy)
         first, wanted = np.uint64((row - top) * width + left), np.int32(count)
         # Whole steps of four, the last of them half in vain, are faster than a remainder: there is room behind the end.
         for x in range(np.uint64((count + 3) & ~3)):

@@ -68,6 +68,7 @@ class Placed:
     """Points before the camera, and which triangles of a plan are to be drawn.
 
     Attributes:
+        points: (V, 3) m, on their grid.
         view: (V, 3) m, the camera's frame.
         places: (V, 2) 1/256 pixels.
         inverse: (V,) 1 / depth, 1/m.
@@ -76,6 +77,7 @@ class Placed:
         borders: (n,) edges of theirs, as in ``Triangles``.
     """
 
+    points: Floats
     view: Floats
     places: Ints32
     inverse: Floats
@@ -86,6 +88,7 @@ class Placed:
 
 def place_mesh(points: Floats, plan: Plan, camera: Camera) -> Placed:
     """Where points (V, 3) m fall, and what becomes of the plan's triangles."""
+    points = exact.round_points(points)
     view = camera.view(points)
     codes = outcodes(camera, view)
     places, inverse = camera.project(view)
@@ -98,7 +101,7 @@ def place_mesh(points: Floats, plan: Plan, camera: Camera) -> Placed:
     borders = (ends * np.array([1, 2, 4])).sum(axis=1).astype(np.uint8)
     corners = np.ascontiguousarray(plan.triangles[:, whole].T, dtype=np.int32)
     cut = np.flatnonzero((outside != 0) & ((first & second & third) == 0))
-    return Placed(view, places, inverse, np.concatenate([whole, cut]), corners, borders)
+    return Placed(points, view, places, inverse, np.concatenate([whole, cut]), corners, borders)
 
 
 def make_triangles(
@@ -106,11 +109,11 @@ def make_triangles(
 ) -> Triangles:
     """The mesh, projected by ``place``, lit by ``light``, clipped, without what turns its back."""
     topology = mesh.topology
-    points = exact.round_points(mesh.points)
     plan = plan_shading(topology, scene.shading in ("polygon", "wire"), mesh.colored_by_polygon)
     if scene.shading == "wire":
         mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
-    placed = place(points, plan, camera)
+    placed = place(mesh.points, plan, camera)
+    points = placed.points
     values, value_of = light(mesh, points, plan, scene, placed.drawn)
     whole = len(placed.corners)
     result = Triangles(placed.places, placed.inverse, placed.corners, values, value_of[:whole], placed.borders)
