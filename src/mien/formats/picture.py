@@ -16,7 +16,7 @@ from mien.core import MienError
 from .atomic import writing
 from .table import find_format
 
-PNG_LEVEL = 6
+PNG_LEVEL = 4
 """Compression of a still picture; frames of a series use level 1, which is several times faster."""
 
 JPEG_QUALITY = 92

@@ -23,7 +23,7 @@ SOUND_NAME = "sound.wav"
 OURS = ("frame_*.png", SOUND_NAME)
 """Names that a folder written here consists of."""
 
-SERIES_LEVEL = 1
+SERIES_LEVEL = 2
 """PNG compression of frames: several times faster than a still picture's, a third more bytes."""
 
 _ENCODERS = 2
