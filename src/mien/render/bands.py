@@ -88,8 +88,8 @@ def _smooth(
                 _fill(fine_color[group, sample, before[row - top, first] : before[row - top, last]], behind[row])
         for m in range(begin, stop):
             draw_samples(
-                shapes, frames, planes, 9 * group, members[m], top, end, first, last, limit[group], before, columns,
-                fine_depth, fine_color[group],
+                places, corners, shapes, frames, planes, 9 * group, members[m], top, end, first, last, limit[group],
+                before, columns, fine_depth, fine_color[group],
             )  # fmt: skip
     for row in range(top, end):
         for k in range(before[row - top, first], before[row - top, last]):

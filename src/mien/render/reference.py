@@ -96,22 +96,10 @@ def _draw(
     rows, columns, covered = coverage(places, width, height, offset)
     if not covered.any():
         return
-    first = covered.argmax(axis=1)
+    x = np.arange(columns.start, columns.stop) * SUBPIXELS + offset[0]
     y = np.arange(rows.start, rows.stop) * SUBPIXELS + offset[1]
-    x = (columns.start + first) * SUBPIXELS + offset[0]
-    steps = (np.arange(covered.shape[1]) - first[:, None]).astype(np.float32)
-    (ax, ay), (bx, by), (cx, cy) = places.astype(np.float64)
-    share = 1.0 / ((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
-
-    def over_raster(ends: NDArray[np.float64], kind: type[np.float32 | np.float64]) -> Floats32:
-        at_a, at_b, at_c = ends
-        along, across = at_b - at_a, at_c - at_a
-        slope_x = kind(along * ((cy - ay) * share) - across * ((by - ay) * share))
-        slope_y = kind(across * ((bx - ax) * share) - along * ((cx - ax) * share))
-        start = (kind(at_a) + slope_y * (y - ay).astype(kind)) + slope_x * (x - ax).astype(kind)
-        return start.astype(np.float32)[:, None] + np.float32(slope_x * SUBPIXELS) * steps
-
-    z = over_raster(inverse, np.float64)
+    spans = _Spans(x, covered.argmax(axis=1)) if offset == CENTRE else None
+    z = _plane(places, inverse, x, y, np.float64, spans)
     near = covered & (z > depth[rows, columns])
     depth[rows, columns][near] = z[near]
     scale = np.float32(1.0) / z[near]
@@ -119,9 +107,41 @@ def _draw(
         most = np.float32(WHOLE if group else ONE)
         for v in range(3):
             # A value over depth is linear on the screen, the value is not. Source: Blinn 1992.
-            value = over_raster(values[:, 3 * group + v] * inverse, np.float32)[near] * scale
-            samples[rows, columns, v][near] = np.clip(value, np.float32(0.0), most).astype(np.int64)
+            over_depth = _plane(places, values[:, 3 * group + v] * inverse, x, y, np.float32, spans)
+            samples[rows, columns, v][near] = np.clip(over_depth[near] * scale, np.float32(0.0), most).astype(np.int64)
         samples[rows, columns, 3][near] = ONE
+
+
+class _Spans:
+    """Rows of samples that are worked out from their first covered one on, step by step, as the fast rasteriser does.
+
+    Attributes:
+        first: (rows, 1) places of the first, 1/256 pixels.
+        steps: (rows, columns) from there to each sample.
+    """
+
+    def __init__(self, x: Ints, first: Ints) -> None:
+        self.first = x[first][:, None]
+        self.steps = (np.arange(len(x)) - first[:, None]).astype(np.float32)
+
+
+def _plane(
+    places: Ints,
+    ends: NDArray[np.float64],
+    x: Ints,
+    y: Ints,
+    kind: type[np.float32 | np.float64],
+    spans: _Spans | None,
+) -> Floats32:
+    """(rows, columns) a value at samples in columns x and rows y, 1/256 pixels; at the corners it is ``ends`` (3,)."""
+    (ax, ay), (bx, by), (cx, cy) = places.astype(np.float64)
+    share = 1.0 / ((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
+    along, across = ends[1] - ends[0], ends[2] - ends[0]
+    by_x = kind(along * ((cy - ay) * share) - across * ((by - ay) * share))
+    by_y = kind(across * ((bx - ax) * share) - along * ((cx - ax) * share))
+    from_a = (x[None, :] if spans is None else spans.first) - ax
+    value = ((kind(ends[0]) + by_y * (y - ay).astype(kind)[:, None]) + by_x * from_a.astype(kind)).astype(np.float32)
+    return value if spans is None else value + np.float32(by_x * SUBPIXELS) * spans.steps
 
 
 def mark_edges(triangles: Triangles, camera: Camera, depth: Floats32) -> Bools:

@@ -14,23 +14,30 @@ import numpy as np
 
 from mien.compiling import kernel
 
-from .pixels import OFFSETS
 from .reference import BEND, HIDDEN_PX
 from .spans import (
+    BOTTOM,
     END_COLUMN,
     END_ROW,
     FIRST_COLUMN,
     FIRST_ROW,
-    LONG_RIGHT,
+    LONG_SLOPE,
+    LOWER_SLOPE,
+    LOWER_X,
+    MIDDLE,
     ORIGIN_X,
     ORIGIN_Y,
+    TOP,
+    UPPER_SLOPE,
+    UPPER_X,
     Z,
     at_sample,
-    find_span,
-    outline,
     pack,
     plane,
 )
+
+MARGIN = 1e-6
+"""More than rounding can move a column by, pixels."""
 
 
 @kernel()
@@ -91,8 +98,56 @@ def list_marks(marks, rows, first, last, columns, before):
 
 
 @kernel()
-def draw_samples(shapes, frames, planes, group, t, top, end, first, last, limit, before, columns, depth, color):
-    """Draw triangle t into the four samples (4, K) of the pixels that are marked in rows top:end."""
+def edge(px, py, qx, qy):
+    """What grows to the inside of an edge that runs clockwise on the screen: by x, by y, and where both are 0.
+
+    It is 0 or more where a sample belongs to the triangle: whole numbers, in 1/256 pixels, as in ``reference``.
+    """
+    dx, dy = qx - px, qy - py
+    owned = dy < 0 or (dy == 0 and dx > 0)
+    return -dy, dx, dy * px - dx * py - (0 if owned else 1)
+
+
+@kernel()
+def reach(side):
+    """How much more than at the corner of a pixel it can be at a sample in it."""
+    return 255 * (max(side[0], 0) + max(side[1], 0))
+
+
+@kernel()
+def columns_of_row(shapes, t, row):
+    """First column of pixels that triangle t may touch in a row, and the one behind the last: some too many, if any."""
+    top, middle, bottom = shapes[t, TOP], shapes[t, MIDDLE], shapes[t, BOTTOM]
+    start, end = max(row * 256.0, top), min(row * 256.0 + 256.0, bottom)
+    upper, lower = shapes[t, UPPER_X] * (1.0 / 256.0), shapes[t, LOWER_X] * (1.0 / 256.0)
+    first = upper + (start - top) * shapes[t, LONG_SLOPE]
+    last = upper + (end - top) * shapes[t, LONG_SLOPE]
+    low, high = min(first, last), max(first, last)
+    if start <= middle:
+        x = upper + (start - top) * shapes[t, UPPER_SLOPE]
+        low, high = min(low, x), max(high, x)
+    if end >= middle:
+        x = lower + (end - middle) * shapes[t, LOWER_SLOPE]
+        low, high = min(low, x), max(high, x)
+    if start <= middle and middle <= end:
+        low, high = min(low, lower), max(high, lower)
+    if start > middle:
+        x = lower + (start - middle) * shapes[t, LOWER_SLOPE]
+        low, high = min(low, x), max(high, x)
+    if end < middle:
+        x = upper + (end - top) * shapes[t, UPPER_SLOPE]
+        low, high = min(low, x), max(high, x)
+    return int(np.floor(low - MARGIN)), int(np.floor(high + MARGIN)) + 1
+
+
+@kernel()
+def draw_samples(
+    places, corners, shapes, frames, planes, group, t, top, end, first, last, limit, before, columns, depth, color
+):
+    """Draw triangle t into the four samples (4, K) of the pixels that are marked in rows top:end, columns first:last.
+
+    These pixels are few and their triangles often smaller than they are: each is asked on its own.
+    """
     left, right = max(frames[t, FIRST_COLUMN], first), min(frames[t, END_COLUMN], last)
     if left >= right:
         return
@@ -101,33 +156,43 @@ def draw_samples(shapes, frames, planes, group, t, top, end, first, last, limit,
         first_row += 1
     if first_row >= end:
         return
-    shape, long_right = outline(shapes, t), frames[t, LONG_RIGHT] == 1
+    i, j, k = corners[t, 0], corners[t, 1], corners[t, 2]
+    ax, ay = np.int64(places[i, 0]), np.int64(places[i, 1])
+    bx, by = np.int64(places[j, 0]), np.int64(places[j, 1])
+    cx, cy = np.int64(places[k, 0]), np.int64(places[k, 1])
+    if (bx - ax) * (cy - ay) < (cx - ax) * (by - ay):
+        bx, by, cx, cy = cx, cy, bx, by
+    ab, bc, ca = edge(ax, ay, bx, by), edge(bx, by, cx, cy), edge(cx, cy, ax, ay)
+    reach_ab, reach_bc, reach_ca = reach(ab), reach(bc), reach(ca)
     origin_x, origin_y = shapes[t, ORIGIN_X], shapes[t, ORIGIN_Y]
     nearness, red = plane(shapes, t, Z), plane(planes, t, group)
     green, blue = plane(planes, t, group + 3), plane(planes, t, group + 6)
-    dz, dr, dg, db = nearness[3], red[3], green[3], blue[3]
     for row in range(first_row, end):
-        found = before[row - top]
-        if found[left] == found[right]:
+        if before[row - top, left] == before[row - top, right]:
             continue
-        for sample in range(4):
-            y, offset = float(row * 256 + OFFSETS[sample][1]), OFFSETS[sample][0]
-            if y < shape[0] or y >= shape[2]:
+        here, there = columns_of_row(shapes, t, row)
+        for n in range(before[row - top, max(here, left)], before[row - top, max(min(there, right), left)]):
+            x, y = np.int64(columns[n]) << 8, np.int64(row) << 8
+            in_ab = ab[2] + ab[0] * x + ab[1] * y
+            in_bc = bc[2] + bc[0] * x + bc[1] * y
+            in_ca = ca[2] + ca[0] * x + ca[1] * y
+            if min(min(in_ab + reach_ab, in_bc + reach_bc), in_ca + reach_ca) < 0:
                 continue
-            start, stop = find_span(shape, long_right, y, offset, last)
-            if start >= stop or found[start] == found[stop]:
-                continue
-            dx, dy = float(start * 256 + offset) - origin_x, y - origin_y
-            z0, dx, dy = at_sample(nearness, dx, dy), np.float32(dx), np.float32(dy)
-            r0, g0, b0 = at_sample(red, dx, dy), at_sample(green, dx, dy), at_sample(blue, dx, dy)
-            for k in range(found[start], found[stop]):
-                step = np.float32(columns[k] - start)
-                z = z0 + dz * step
-                if z > depth[sample, k]:
-                    scale = np.float32(1.0) / z
-                    depth[sample, k] = z
-                    r, g, b = (r0 + dr * step) * scale, (g0 + dg * step) * scale, (b0 + db * step) * scale
-                    color[sample, k] = pack(r, g, b, limit)
+            for sample in range(4):
+                # ``OFFSETS``, which would be looked up: a jump that no processor foresees.
+                to_x, to_y = (96 + 128 * sample - 64 * (sample >> 1)) & 255, 32 + 64 * sample
+                at_ab = in_ab + ab[0] * to_x + ab[1] * to_y
+                at_bc = in_bc + bc[0] * to_x + bc[1] * to_y
+                at_ca = in_ca + ca[0] * to_x + ca[1] * to_y
+                if min(min(at_ab, at_bc), at_ca) < 0:
+                    continue
+                dx, dy = float(x + to_x) - origin_x, float(y + to_y) - origin_y
+                z = at_sample(nearness, dx, dy)
+                if z > depth[sample, n]:
+                    dx, dy, scale = np.float32(dx), np.float32(dy), np.float32(1.0) / z
+                    r, g, b = at_sample(red, dx, dy), at_sample(green, dx, dy), at_sample(blue, dx, dy)
+                    depth[sample, n] = z
+                    color[sample, n] = pack(r * scale, g * scale, b * scale, limit)
 
 
 @kernel()
