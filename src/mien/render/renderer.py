@@ -30,7 +30,7 @@ Rasteriser = Literal["compiled", "reference"]
 
 RASTERISERS: tuple[Rasteriser, ...] = ("compiled", "reference")
 
-BAND_ROWS = 16
+BAND_ROWS = 32
 """Rows of pixels in a band. Their samples, 12 bytes each, still fit a processor core's own cache."""
 
 SPARE = 4

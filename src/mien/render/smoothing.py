@@ -16,28 +16,17 @@ from mien.compiling import kernel
 
 from .reference import BEND, HIDDEN_PX
 from .spans import (
-    BOTTOM,
     END_COLUMN,
     END_ROW,
     FIRST_COLUMN,
     FIRST_ROW,
-    LONG_SLOPE,
-    LOWER_SLOPE,
-    LOWER_X,
-    MIDDLE,
     ORIGIN_X,
     ORIGIN_Y,
-    TOP,
-    UPPER_SLOPE,
-    UPPER_X,
     Z,
     at_sample,
     pack,
     plane,
 )
-
-MARGIN = 1e-6
-"""More than rounding can move a column by, pixels."""
 
 
 @kernel()
@@ -115,32 +104,6 @@ def reach(side):
 
 
 @kernel()
-def columns_of_row(shapes, t, row):
-    """First column of pixels that triangle t may touch in a row, and the one behind the last: some too many, if any."""
-    top, middle, bottom = shapes[t, TOP], shapes[t, MIDDLE], shapes[t, BOTTOM]
-    start, end = max(row * 256.0, top), min(row * 256.0 + 256.0, bottom)
-    upper, lower = shapes[t, UPPER_X] * (1.0 / 256.0), shapes[t, LOWER_X] * (1.0 / 256.0)
-    first = upper + (start - top) * shapes[t, LONG_SLOPE]
-    last = upper + (end - top) * shapes[t, LONG_SLOPE]
-    low, high = min(first, last), max(first, last)
-    if start <= middle:
-        x = upper + (start - top) * shapes[t, UPPER_SLOPE]
-        low, high = min(low, x), max(high, x)
-    if end >= middle:
-        x = lower + (end - middle) * shapes[t, LOWER_SLOPE]
-        low, high = min(low, x), max(high, x)
-    if start <= middle and middle <= end:
-        low, high = min(low, lower), max(high, lower)
-    if start > middle:
-        x = lower + (start - middle) * shapes[t, LOWER_SLOPE]
-        low, high = min(low, x), max(high, x)
-    if end < middle:
-        x = upper + (end - top) * shapes[t, UPPER_SLOPE]
-        low, high = min(low, x), max(high, x)
-    return int(np.floor(low - MARGIN)), int(np.floor(high + MARGIN)) + 1
-
-
-@kernel()
 def draw_samples(
     places, corners, shapes, frames, planes, group, t, top, end, first, last, limit, before, columns, depth, color
 ):
@@ -168,10 +131,7 @@ def draw_samples(
     nearness, red = plane(shapes, t, Z), plane(planes, t, group)
     green, blue = plane(planes, t, group + 3), plane(planes, t, group + 6)
     for row in range(first_row, end):
-        if before[row - top, left] == before[row - top, right]:
-            continue
-        here, there = columns_of_row(shapes, t, row)
-        for n in range(before[row - top, max(here, left)], before[row - top, max(min(there, right), left)]):
+        for n in range(before[row - top, left], before[row - top, right]):
             x, y = np.int64(columns[n]) << 8, np.int64(row) << 8
             in_ab = ab[2] + ab[0] * x + ab[1] * y
             in_bc = bc[2] + bc[0] * x + bc[1] * y
