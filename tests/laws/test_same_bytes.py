@@ -9,6 +9,8 @@ import pytest
 
 PROGRAM = """
 import hashlib
+import sys
+from dataclasses import replace
 import numpy as np
 from mien.core import Cue, Scene, Sound
 from mien.faces import load_face
@@ -41,13 +43,19 @@ speech = Speech("", Sound.silence(phones[-1].end_s), words, phones, (), "none")
 timeline = perform(speech, head, seed=4, emotion="laugh").timeline
 show("tracks", np.frombuffer("".join(json_text(timeline)).encode(), np.uint8))
 show("values", *(timeline.values(timeline.frame_times(fps), head.parameters) for fps in (24, 29.97, 60)))
-show("picture", draw(head, pose, Scene(size_px=(96, 96)).seen("side")))
+threads = int(sys.argv[1])
+plain = Scene(size_px=(96, 96)).seen("three-quarter")
+show("front", draw(head, pose, Scene(size_px=(160, 90)), threads=threads))
+show("side", draw(head, pose, replace(plain, shading="smooth+").seen("side"), threads=threads))
+show("polygons", draw(head, pose, replace(plain, shading="polygon", subdivide=0), threads=threads))
+show("lines", draw(head, pose, replace(plain, shading="wire", subdivide=1), threads=threads))
+show("clear", draw(someone, someone.neutral, replace(plain, background=((0.1, 0.2, 0.3, 0.4),) * 2), threads=threads))
 """
 
 
-def digests(**environment):
+def digests(threads, **environment):
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", PROGRAM],
+        [sys.executable, "-W", "ignore", "-c", PROGRAM, str(threads)],
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
@@ -58,12 +66,13 @@ def digests(**environment):
 
 
 @pytest.mark.slow
-def test_the_processor_decides_no_bit(tmp_path):
-    plain = {
-        "NPY_DISABLE_CPU_FEATURES": " ".join(np._core._multiarray_umath.__cpu_dispatch__),
-        "NUMBA_CPU_NAME": "generic",
-        "NUMBA_CACHE_DIR": str(tmp_path),
+def test_the_processor_and_the_number_of_threads_decide_no_bit(tmp_path):
+    features = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
+    here = digests(1)
+    assert len(here) == 10
+    others = {
+        "a processor of another kind": (3, {"NUMBA_CPU_NAME": "generic", "NUMBA_CACHE_DIR": str(tmp_path)}),
+        "NumPy without its fast paths": (2, {"NPY_DISABLE_CPU_FEATURES": features, "OPENBLAS_CORETYPE": "Prescott"}),
     }
-    here = digests()
-    assert len(here) == 6
-    assert digests(**plain) == here
+    for name, (threads, environment) in others.items():
+        assert digests(threads, **environment) == here, name
