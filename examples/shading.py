@@ -1,4 +1,4 @@
-"""One face four ways: wireframe, flat polygons and Gouraud's shading of the measured surface, and subdivided skin."""
+"""One face five ways: wireframe, flat polygons, Gouraud's shading, light on every pixel; and subdivided skin."""
 
 # mien: docs = picture, test = compare
 import sys
@@ -9,6 +9,7 @@ WAYS = (
     ("wireframe", 0, "wire"),
     ("polygons", 0, "polygon"),
     ("Gouraud", 0, "smooth"),
+    ("every pixel", 0, "smooth+"),
     ("subdivided", 2, "smooth"),
 )
 
@@ -18,11 +19,11 @@ def main(out: str = "shading.jpg") -> None:
         mien.draw(
             "head:ben",
             {"mouth.expression": 0.5},
-            mien.Scene(size_px=(340, 400), subdivide=subdivide, shading=shading).seen("three-quarter"),
+            mien.Scene(size_px=(300, 360), subdivide=subdivide, shading=shading).seen("three-quarter"),
         )
         for _, subdivide, shading in WAYS
     ]
-    mien.contact_sheet(pictures, 4, [name for name, *_ in WAYS]).write(out)
+    mien.contact_sheet(pictures, 5, [name for name, *_ in WAYS]).write(out)
 
 
 if __name__ == "__main__":

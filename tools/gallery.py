@@ -17,6 +17,7 @@ ORDER = (
     "three_views",
     "shading",
     "expressions",
+    "presets",
     "blink",
     "jaw",
     "strip",

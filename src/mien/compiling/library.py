@@ -9,10 +9,12 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -26,7 +28,7 @@ from .kernel import Kernel
 
 Report = Callable[[str], None]
 
-MESSAGE = "compiling the drawing code, once, about ten seconds"
+MESSAGE = "compiling what poses and draws, once, about half a minute"
 
 _lock = threading.RLock()
 _report: list[Report] = []
@@ -56,23 +58,47 @@ def find_address(kernel: Kernel) -> int:
     return _load(sys.modules[kernel.__module__]).addresses[kernel.__name__]
 
 
-def load_kernels(modules: Iterable[str]) -> None:
-    """Load, and if need be compile, every kernel of these modules."""
-    for name in modules:
-        _load(import_module(name))
+def load_kernels(names: Sequence[str]) -> None:
+    """Load every kernel of the modules of these names; what must be compiled is shared out among processes."""
+    modules = [import_module(name) for name in names]
+    cold = [module.__name__ for module in modules if not _path(module).is_file()]
+    workers = min(len(cold), os.cpu_count() or 1)
+    if workers > 1:
+        _tell()
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(_compile_elsewhere, cold))
+    for module in modules:
+        _load(module)
+
+
+def _compile_elsewhere(name: str) -> None:
+    """Have another process compile a module into the cache; where that fails, it is compiled here when it is used."""
+    code = f"from mien.compiling import load_kernels; load_kernels([{name!r}])"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(cache_folder()), "PYTHONPATH": os.pathsep.join(sys.path)}
+    subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, check=False)
 
 
 def _load(module: ModuleType) -> Library:
     with _lock:
         name = module.__name__
         if name not in _libraries:
-            path = cache_folder() / f"{name}-{_digest(module)}.objects"
+            path = _path(module)
             objects = _read(path)
             if objects is None:
                 objects = _compile(module)
                 _write(path, objects)
             _libraries[name] = _link(objects)
         return _libraries[name]
+
+
+def _path(module: ModuleType) -> Path:
+    return cache_folder() / f"{module.__name__}-{_digest(module)}.objects"
+
+
+def _tell() -> None:
+    if _report:
+        _report[0](MESSAGE)
+        _report.clear()
 
 
 def _kernels(module: ModuleType) -> list[Kernel]:
@@ -83,9 +109,7 @@ def _kernels(module: ModuleType) -> list[Kernel]:
 
 def _compile(module: ModuleType) -> dict[str, tuple[str, bytes]]:
     """Kernel -> its name in an object file, and that file."""
-    if _report:
-        _report[0](MESSAGE)
-        _report.clear()
+    _tell()
     from .build import build
 
     return {kernel.__name__: build(kernel, _target()) for kernel in _kernels(module)}
@@ -135,13 +159,16 @@ def _digest(module: ModuleType) -> str:
 
 
 def _sources(module: ModuleType) -> set[bytes]:
-    """The source of a module and of all modules whose kernels it uses, and of the compiler's front."""
+    """The source of a module and of all modules whose kernels it uses, their constants, and the compiler's front."""
     found: dict[str, bytes] = {}
 
     def visit(each: ModuleType) -> None:
         if each.__name__ in found:
             return
-        found[each.__name__] = _source(each)
+        constants = sorted(
+            (name, value) for name, value in vars(each).items() if isinstance(value, int | float | tuple)
+        )
+        found[each.__name__] = Path(each.__file__ or "").read_bytes() + repr(constants).encode()
         for value in vars(each).values():
             if isinstance(value, Kernel) and value.__module__ != each.__name__:
                 visit(sys.modules[value.__module__])
@@ -156,10 +183,6 @@ def _version(package: str) -> bytes:
     """The file in which a package says its version: asking ``importlib.metadata`` takes tens of milliseconds."""
     spec = find_spec(package)
     return Path(spec.origin).with_name("_version.py").read_bytes() if spec and spec.origin else b""
-
-
-def _source(module: ModuleType) -> bytes:
-    return Path(module.__file__ or "").read_bytes()
 
 
 def _read(path: Path) -> dict[str, tuple[str, bytes]] | None:

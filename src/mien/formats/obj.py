@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Mesh, MienError
-from mien.render.pixels import encode
+from mien.render.pixels import to_srgb
 from mien.render.plan import plan_shading
 from mien.render.shade import own_normals, polygon_normals
 
@@ -74,7 +74,7 @@ def colored_vertices(mesh: Mesh) -> tuple[Ints, NDArray[np.uint8], Ints]:
     """
     corners = mesh.topology.corners
     colored = mesh.topology.polygon_of_corner if mesh.colored_by_polygon else corners
-    codes = encode(mesh.colors.astype(np.float32))
+    codes = to_srgb(mesh.colors.astype(np.float32))
     red, green, blue = (codes[colored, k].astype(np.int64) for k in range(3))
     key = ((corners * 256 + red) * 256 + green) * 256 + blue
     _, first, vertex_of = np.unique(key, return_index=True, return_inverse=True)

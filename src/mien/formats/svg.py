@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mien.core import Drawing, Path, Scene
-from mien.render.pixels import encode
+from mien.render.pixels import to_srgb
 from mien.render.wire import INK, LINE_SHARE
 
 from .atomic import writing
@@ -153,5 +153,5 @@ def _opacity(kind: str, alpha: float) -> str:
 
 
 def _hex(linear: ArrayLike) -> str:
-    codes: NDArray[np.uint8] = encode(np.asarray(linear, dtype=np.float32))
+    codes: NDArray[np.uint8] = to_srgb(np.asarray(linear, dtype=np.float32))
     return "#" + "".join(f"{code:02x}" for code in codes.tolist())

@@ -6,6 +6,7 @@ A sample is four values: red, green, blue, linear and already multiplied by the 
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +54,11 @@ def background(scene: Scene) -> NDArray[np.float64]:
 def to_samples(linear: NDArray[np.float64]) -> Samples:
     """Samples of linear RGBA 0..1, any shape."""
     return (np.clip(linear, 0.0, 1.0) * ONE).astype(np.int64)
+
+
+def to_srgb(linear: NDArray[np.floating[Any]]) -> Bytes:
+    """sRGB codes of linear values 0..1, any shape."""
+    return srgb_codes()[(np.clip(linear, 0.0, 1.0) * ONE).astype(np.int64)]
 
 
 def average(samples: Samples) -> Samples:
