@@ -48,7 +48,7 @@ From = Annotated[
 At = Annotated[str | None, typer.Option("--at", metavar="X,Y,Z", help="What the camera looks at, metres.")]
 Fov = Annotated[float | None, typer.Option("--fov", metavar="DEG", help="Field of view, degrees.")]
 Shading = Annotated[
-    str | None, typer.Option("--shading", metavar="NAME", help="smooth, polygon or wire.  [default: smooth]")
+    str | None, typer.Option("--shading", metavar="NAME", help="smooth, smooth+, polygon or wire.  [default: smooth]")
 ]
 Subdivide = Annotated[
     int | None, typer.Option("--subdivide", metavar="N", help="Rounding of the skin: 0, 1 or 2.  [default: 2]")
