@@ -82,10 +82,11 @@ def _smooth(
     if count == 0:
         return
     for group in range(len(color)):
-        for sample in range(4):
-            _fill(fine_depth[sample, :count], np.float32(0.0))
-            for row in range(top, end):
-                _fill(fine_color[group, sample, before[row - top, first] : before[row - top, last]], behind[row])
+        for row in range(top, end):
+            for k in range(before[row - top, first], before[row - top, last]):
+                for sample in range(4):
+                    fine_depth[k, sample] = np.float32(0.0)
+                    fine_color[group, k, sample] = behind[row]
         for m in range(begin, stop):
             draw_samples(
                 places, corners, shapes, frames, planes, 9 * group, members[m], top, end, first, last, limit[group],
@@ -96,7 +97,7 @@ def _smooth(
             if len(color) > 1:
                 for sample in range(4):
                     x, y = columns[k] + OFFSETS[sample][0] / 256.0, row + OFFSETS[sample][1] / 256.0
-                    light_sample(fine_color[:, sample], k, fine_depth[sample, k], x, y, viewer, lamps, ambient)
+                    light_sample(fine_color[:, :, sample], k, fine_depth[k, sample], x, y, viewer, lamps, ambient)
             color[0, (row - first_row) * width + columns[k]] = average(fine_color[0], k)
 
 

@@ -232,8 +232,8 @@ def _buffers(width: int, groups: int, smooth: bool) -> tuple[NDArray[np.generic]
         np.zeros((rows, width), dtype=np.uint8),
         np.empty((rows, width + 1), dtype=np.int32),
         np.empty(rows * width, dtype=np.int32),
-        np.empty((4, rows * width), dtype=np.float32),
-        np.empty((groups, 4, rows * width), dtype=np.uint64),
+        np.empty((rows * width, 4), dtype=np.float32),
+        np.empty((groups, rows * width, 4), dtype=np.uint64),
     )
 
 

@@ -107,7 +107,7 @@ def reach(side):
 def draw_samples(
     places, corners, shapes, frames, planes, group, t, top, end, first, last, limit, before, columns, depth, color
 ):
-    """Draw triangle t into the four samples (4, K) of the pixels that are marked in rows top:end, columns first:last.
+    """Draw triangle t into the four samples (K, 4) of the pixels that are marked in rows top:end, columns first:last.
 
     These pixels are few and their triangles often smaller than they are: each is asked on its own.
     """
@@ -148,11 +148,11 @@ def draw_samples(
                     continue
                 dx, dy = float(x + to_x) - origin_x, float(y + to_y) - origin_y
                 z = at_sample(nearness, dx, dy)
-                if z > depth[sample, n]:
+                if z > depth[n, sample]:
                     dx, dy, scale = np.float32(dx), np.float32(dy), np.float32(1.0) / z
                     r, g, b = at_sample(red, dx, dy), at_sample(green, dx, dy), at_sample(blue, dx, dy)
-                    depth[sample, n] = z
-                    color[sample, n] = pack(r * scale, g * scale, b * scale, limit)
+                    depth[n, sample] = z
+                    color[n, sample] = pack(r * scale, g * scale, b * scale, limit)
 
 
 @kernel()
@@ -161,6 +161,6 @@ def average(samples, k):
     low = np.uint64(0x0000FFFF0000FFFF)
     even = odd = np.uint64(0x0000000200000002)
     for s in range(4):
-        even += samples[s, k] & low
-        odd += (samples[s, k] >> np.uint64(16)) & low
+        even += samples[k, s] & low
+        odd += (samples[k, s] >> np.uint64(16)) & low
     return ((even >> np.uint64(2)) & low) | (((odd >> np.uint64(2)) & low) << np.uint64(16))
