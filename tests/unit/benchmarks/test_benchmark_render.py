@@ -53,7 +53,14 @@ def test_a_worker_outlives_nobody_and_ignores_ctrl_c(worker):
 
 def test_ctrl_c_ends_the_run_and_its_workers():
     command = [sys.executable, BENCHMARKS / "render.py", "--no-peers", "--rounds", "10000"]
-    run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    run = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # Who starts the tests in the background has Ctrl-C ignored, which programs inherit.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
     while "memory floor" not in run.stdout.readline():
         assert run.poll() is None
     children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
