@@ -61,13 +61,16 @@ def test_ctrl_c_ends_the_run_and_its_workers():
         # Who starts the tests in the background has Ctrl-C ignored, which programs inherit.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
-    while "memory floor" not in run.stdout.readline():
-        assert run.poll() is None
-    children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
-    assert len(children) == 5
-    time.sleep(0.5)
-    run.send_signal(signal.SIGINT)
-    run.communicate(timeout=20)
+    try:
+        while "memory floor" not in run.stdout.readline():
+            assert run.poll() is None
+        children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        assert len(children) == 5
+        time.sleep(0.5)
+        run.send_signal(signal.SIGINT)
+        run.communicate(timeout=20)
+    finally:
+        run.kill()
     assert run.returncode != 0
     assert [number for number in children if Path(f"/proc/{number}").exists()] == []
 
