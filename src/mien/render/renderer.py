@@ -33,6 +33,9 @@ RASTERISERS: tuple[Rasteriser, ...] = ("compiled", "reference")
 BAND_ROWS = 32
 """Rows of pixels in a band. Their samples, 12 bytes each, still fit a processor core's own cache."""
 
+WORTH_SHARING = 8192
+"""Fewer points or triangles are done faster by one thread than handed out: that costs some 50 microseconds."""
+
 SPARE = 4
 """Samples behind the last one, into which whole steps of spans reach."""
 
@@ -168,9 +171,9 @@ class Renderer:
         return outs
 
     def _parts(self, count: int) -> list[tuple[int, int]]:
-        """0:count in as many runs as there are threads."""
-        ends = [count * k // self.threads for k in range(self.threads + 1)]
-        return list(pairwise(ends))
+        """0:count in as many runs as there are threads, or one where handing them out would take longer."""
+        runs = self.threads if count >= WORTH_SHARING else 1
+        return list(pairwise(count * k // runs for k in range(runs + 1)))
 
     def _rasterise(self, triangles: Triangles) -> Picture:
         width, height = self.scene.size_px
