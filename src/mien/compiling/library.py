@@ -9,12 +9,10 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -64,6 +62,8 @@ def load_kernels(names: Sequence[str]) -> None:
     cold = [module.__name__ for module in modules if not _path(module).is_file()]
     workers = min(len(cold), os.cpu_count() or 1)
     if workers > 1:
+        from concurrent.futures import ThreadPoolExecutor
+
         _tell()
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(_compile_elsewhere, cold))
@@ -73,6 +73,8 @@ def load_kernels(names: Sequence[str]) -> None:
 
 def _compile_elsewhere(name: str) -> None:
     """Have another process compile a module into the cache; where that fails, it is compiled here when it is used."""
+    import subprocess
+
     code = f"from mien.compiling import load_kernels; load_kernels([{name!r}])"
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(cache_folder()), "PYTHONPATH": os.pathsep.join(sys.path)}
     subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, check=False)

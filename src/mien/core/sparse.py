@@ -14,15 +14,16 @@ Ints = NDArray[np.int64]
 
 def sort_pairs(first: Ints, second: Ints) -> tuple[Ints, NDArray[np.bool_]]:
     """Order (N,) of pairs by first, then second number, equal ones as given; and whether each begins a new pair."""
-    order = _stable_order(second)
-    order = order[_stable_order(first[order])]
+    order = stable_order(second)
+    order = order[stable_order(first[order])]
     a, b = first[order], second[order]
     new = np.ones(len(order), dtype=bool)
     new[1:] = (a[1:] != a[:-1]) | (b[1:] != b[:-1])
     return order, new
 
 
-def _stable_order(numbers: Ints) -> Ints:
+def stable_order(numbers: Ints) -> Ints:
+    """Order (N,) of whole numbers, equal ones as given."""
     # NumPy sorts numbers of sixteen bits by their digits, in a tenth of the time that comparing takes.
     small = not len(numbers) or (numbers.min() >= 0 and numbers.max() < 1 << 16)
     return np.argsort(numbers.astype(np.uint16) if small else numbers, kind="stable")

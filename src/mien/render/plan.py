@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Topology
-from mien.core.sparse import SparseMatrix
+from mien.core.sparse import SparseMatrix, sort_pairs, stable_order
 
 Ints = NDArray[np.int64]
 Ints32 = NDArray[np.int32]
@@ -82,8 +82,11 @@ def plan_shading(topology: Topology, flat: bool, colored_by_polygon: bool = Fals
             rows.append(count + inside - part.first)
             columns.append(inside)
         else:
-            used, place = np.unique(topology.corners[span], return_inverse=True)
-            corner_node[span] = count + place.reshape(-1)
+            # ``np.unique`` would import another part of NumPy, at every start.
+            in_part = np.zeros(topology.vertex_count, dtype=bool)
+            in_part[topology.corners[span]] = True
+            used, place = np.flatnonzero(in_part), np.cumsum(in_part) - 1
+            corner_node[span] = count + place[topology.corners[span]]
             vertices.append(used)
             polygons.append(np.full(len(used), -1))
             rows.append(corner_node[span])
@@ -131,12 +134,14 @@ def _find_neighbours(topology: Topology, apart: bool) -> Ints32:
     surface = np.where(flat[part] | apart, len(topology.parts) + np.arange(topology.polygon_count), part)
     ends = np.stack([topology.triangles, np.roll(topology.triangles, -1, axis=1)]).reshape(2, -1)
     low, high = ends.min(axis=0), ends.max(axis=0)
-    key = (np.repeat(surface[topology.polygon_of_triangle], 3) * topology.vertex_count + low) * topology.vertex_count
-    order = np.argsort(key + high, kind="stable")
-    key = (key + high)[order]
-    same = np.concatenate([[False], key[1:] == key[:-1], [False]])
+    surface = np.repeat(surface[topology.polygon_of_triangle], 3)
+    order, _ = sort_pairs(low, high)
+    order = order[stable_order(surface[order])]
+    keys = [values[order] for values in (surface, low, high)]
+    same = np.zeros(len(order) + 1, dtype=bool)
+    same[1:-1] = np.logical_and.reduce([key[1:] == key[:-1] for key in keys])
     first = np.flatnonzero(same[1:-1] & ~same[:-2] & ~same[2:])
-    neighbours = np.full(len(key), -1, dtype=np.int32)
+    neighbours = np.full(len(order), -1, dtype=np.int32)
     neighbours[order[first]], neighbours[order[first + 1]] = order[first + 1] // 3, order[first] // 3
     return neighbours.reshape(-1, 3)
 
@@ -148,7 +153,7 @@ def _join(arrays: list[Ints]) -> Ints:
 def _group_by_size(topology: Topology) -> tuple[tuple[Ints, Ints], ...]:
     sizes = np.diff(topology.starts)
     groups = []
-    for size in np.unique(sizes):
+    for size in np.flatnonzero(np.bincount(sizes)):
         inside = np.flatnonzero(sizes == size)
         groups.append((inside, topology.corners[topology.starts[inside][:, None] + np.arange(size)]))
     return tuple(groups)

@@ -96,7 +96,7 @@ def group_powers(
 ) -> tuple[tuple[int, NDArray[np.int64]], ...]:
     """Sharpness of highlights, each with the numbers of what has it."""
     glossy = (gloss > 0.0) & lit
-    return tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.unique(power[glossy]))
+    return tuple((int(p), np.flatnonzero(glossy & (power == p))) for p in np.flatnonzero(np.bincount(power[glossy])))
 
 
 def own_normals(mesh: Mesh) -> Floats:
