@@ -67,13 +67,14 @@ def _smooth(
     """Give the marked pixels of rows top:end and columns first:last of a band the mean of four samples."""
     width, scale = marks.shape[1], viewer[12]
     offset = (top - first_row) * width
+    # The outermost pixels are looked at too, which takes a neighbour on each side.
+    left, size = max(first - 1, 0), min(last + 1, width) - max(first - 1, 0)
     for row in range(top, end):
         if row > 0 and row + 1 < len(behind):
-            here = offset + (row - top) * width + first
-            size = last - first
+            here = offset + (row - top) * width + left
             mark_kinks(
                 depth[here - width : here - width + size], depth[here : here + size],
-                depth[here + width : here + width + size], np.float32(scale), marks[row - top, first:last],
+                depth[here + width : here + width + size], np.float32(scale), marks[row - top, left : left + size],
             )  # fmt: skip
     for m in range(begin, stop):
         if borders[members[m]]:
