@@ -1,13 +1,11 @@
 """Every face documents its parameters; every table of names fits the faces."""
 
-import csv
-from pathlib import Path
-
 import pytest
 
+from mien.vocab import families, load_remap, load_rules, vocabularies, vocabulary
+from mien.vocab.rules import KINDS
+from mien.vocab.tables import shipped_tables
 from support import FACE_NAMES, face
-
-DATA = Path(__file__).parents[2] / "src" / "mien" / "vocab" / "data"
 
 # What a value is counted in. A share goes from 0 to 1 or from -1 to 1.
 UNITS = {"deg", "m", "s", "share", "factor", "Parke unit", "linear light", "iris radius", "eyeball radius"}
@@ -40,32 +38,53 @@ def test_presets_are_described(name):
         assert preset.doc, key
 
 
-def tables_of_names():
-    """``data/<vocabulary>.<family>.csv``"""
-    return sorted(path for path in DATA.glob("*.*.csv")) if DATA.is_dir() else []
-
-
 def family(name):
     return next((face(known) for known in FACE_NAMES if face(known).family == name), None)
 
 
-def rows_of(path):
-    lines = (line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#"))
-    return list(csv.DictReader(lines))
+REMAPS = [(name, kind) for name in vocabularies() for kind in families(name)]
 
 
-@pytest.mark.parametrize("path", tables_of_names(), ids=lambda path: path.name)
-def test_both_sets_of_names_in_a_table_exist(path):
-    vocabulary, kind = path.name.removesuffix(".csv").split(".")
-    subject = family(kind)
-    assert subject is not None, f"{path.name}: no installed face is of the family {kind!r}"
-    rows = rows_of(path)
-    assert rows
-    columns = list(rows[0])
-    assert len(columns) >= 3, f"{path.name}: want a name, a parameter and a weight, got {columns}"
-    listed = DATA / f"{vocabulary}.csv"
-    known = {next(iter(row.values())) for row in rows_of(listed)} if listed.exists() else None
-    for row in rows:
-        theirs, ours, *_ = row.values()
-        assert subject.parameters.resolve(ours)
-        assert known is None or theirs in known, f"{path.name}: {theirs!r} is not in {listed.name}"
+@pytest.mark.parametrize(("name", "kind"), REMAPS)
+def test_both_sets_of_names_in_a_table_exist(name, kind):
+    subject, remap = family(kind), load_remap(name, kind)
+    assert subject is not None, f"{name}.{kind}.csv: no installed face is of the family {kind!r}"
+    remap.check(vocabulary(name), subject.parameters)
+    assert remap.from_names
+    assert all(remap.sources.values())
+
+
+@pytest.mark.parametrize(("name", "kind"), [remap for remap in REMAPS if remap[0] != "channels"])
+def test_no_name_goes_past_the_end_of_a_range(name, kind):
+    table, remap = family(kind).parameters, load_remap(name, kind)
+    for each in remap.from_names:
+        for target, pushes in remap.pushes({each: 1.0}).items():
+            row = table[target]
+            assert row.low <= row.default + pushes[0][0] <= row.high, f"{name}.{kind}.csv: {each}, {target}"
+        for target, factor in remap.scale({each: 1.0}).items():
+            assert 0.0 <= factor <= 1.0, f"{name}.{kind}.csv: {each}, {target}"
+            assert table[target].low <= 0.0, f"{name}.{kind}.csv: {target} does not go down to 0"
+
+
+@pytest.mark.parametrize("name", vocabularies())
+def test_names_of_a_vocabulary_are_described(name):
+    for row in vocabulary(name):
+        assert row.low <= 0.0 <= row.high, row.name
+        assert row.doc[:1].isupper(), row.name
+        assert row.group, row.name
+        assert row.source, row.name
+
+
+@pytest.mark.parametrize("name", vocabularies())
+def test_rules_of_a_vocabulary_are_about_its_names(name):
+    for rule in load_rules(name):
+        assert rule.name in vocabulary(name).index, rule
+        assert rule.other in vocabulary(name).index, rule
+        assert rule.kind in KINDS, rule
+        assert 0.0 < rule.share <= 1.0, rule
+        assert rule.source, rule
+
+
+def test_every_table_that_ships_is_read_by_something():
+    listed = {"vocabularies", *vocabularies(), *(f"{name}_rules" for name in vocabularies() if load_rules(name))}
+    assert set(shipped_tables()) == listed | {f"{name}.{kind}" for name, kind in REMAPS}

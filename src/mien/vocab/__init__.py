@@ -1,6 +1,20 @@
 """Other names for what a face can do: one sparse matrix between two sets of names, tables as data."""
 
-from .channels import channel_table
+from .posing import pose_from
 from .remap import Remap, families, load_remap, parse_remap, weigh
+from .rules import Rule, load_rules, settle
+from .vocabulary import vocabularies, vocabulary
 
-__all__ = ["Remap", "channel_table", "families", "load_remap", "parse_remap", "weigh"]
+__all__ = [
+    "Remap",
+    "Rule",
+    "families",
+    "load_remap",
+    "load_rules",
+    "parse_remap",
+    "pose_from",
+    "settle",
+    "vocabularies",
+    "vocabulary",
+    "weigh",
+]

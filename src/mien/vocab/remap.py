@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from importlib import resources
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,9 +15,12 @@ from mien.core import LoadError, MienError, ParameterTable, UnknownNameError
 from mien.core.sparse import SparseMatrix
 from mien.timeline import Track
 
-FOLDER = "data"
+from .tables import each_side, shipped_tables, shipped_text
+
 COLUMNS = ("parameter", "gain", "source")
 BLENDS = ("add", "multiply")
+
+Value = TypeVar("Value", float, Track)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,15 +57,29 @@ class Remap:
         Raises:
             UnknownNameError: a name is not in the vocabulary.
         """
-        return self._apply(self.gains, values, 0.0)
+        return {
+            parameter: sum(gain * value for gain, value in parts)
+            for parameter, parts in self._parts(self.gains, values).items()
+        }
 
     def scale(self, values: Mapping[str, float]) -> dict[str, float]:
-        """What parameters are to be multiplied by, for those that the values reach.
+        """What parameters are to be multiplied by, for those that the values reach: the factors of all names.
 
         Raises:
             UnknownNameError: a name is not in the vocabulary.
         """
-        return self._apply(self.factors, values, 1.0)
+        return {
+            parameter: math.prod(1.0 + gain * value for gain, value in parts)
+            for parameter, parts in self._parts(self.factors, values).items()
+        }
+
+    def pushes(self, values: Mapping[str, float]) -> dict[str, list[tuple[float, float]]]:
+        """(gain, value) of each name that adds to a parameter, for those parameters that the values reach.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+        """
+        return self._parts(self.gains, values)
 
     def apply_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
         """Tracks of what is added to each parameter that the given tracks reach.
@@ -77,7 +94,10 @@ class Remap:
         return self._apply_tracks(self.gains, tracks, 0.0)
 
     def scale_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
-        """Tracks of what parameters are multiplied by; otherwise as ``apply_tracks``."""
+        """Tracks of what parameters are multiplied by; otherwise as ``apply_tracks``.
+
+        Where several names multiply one parameter their gains are added up, since a product of straight lines is none.
+        """
         return self._apply_tracks(self.factors, tracks, 1.0)
 
     def reached_by(self, names: Iterable[str]) -> tuple[str, ...]:
@@ -101,26 +121,16 @@ class Remap:
             raise UnknownNameError(f"name in the vocabulary of {self.title!r}:", name, self.from_names)
         return self.index[name]
 
-    def _apply(self, matrix: SparseMatrix, values: Mapping[str, float], rest: float) -> dict[str, float]:
-        vector = np.zeros((len(self.from_names), 1))
-        for name, value in values.items():
-            vector[self._column(name)] = value
-        given = {self._column(name) for name in values}
-        product = matrix.apply(vector)[:, 0]
-        return {
-            name: rest + float(product[row])
+    def _parts(self, matrix: SparseMatrix, values: Mapping[str, Value]) -> dict[str, list[tuple[float, Value]]]:
+        given = {self._column(name): value for name, value in values.items()}
+        parts = (
+            (name, [(gain, given[column]) for column, gain in _entries(matrix, row).items() if column in given])
             for row, name in enumerate(self.to_names)
-            if given & _entries(matrix, row).keys()
-        }
+        )
+        return {name: part for name, part in parts if part}
 
     def _apply_tracks(self, matrix: SparseMatrix, tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
-        given = {self._column(name): track for name, track in tracks.items()}
-        out = {}
-        for row, name in enumerate(self.to_names):
-            parts = [(gain, given[column]) for column, gain in _entries(matrix, row).items() if column in given]
-            if parts:
-                out[name] = weigh(parts, rest, name=name)
-        return out
+        return {name: weigh(parts, rest, name=name) for name, parts in self._parts(matrix, tracks).items()}
 
 
 def weigh(parts: list[tuple[float, Track]], rest: float = 0.0, *, name: str = "") -> Track:
@@ -152,20 +162,20 @@ def load_remap(vocabulary: str, family: str) -> Remap:
     if family not in known:
         others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
         raise MienError(f"vocabulary {vocabulary!r} cannot play faces of the family {family!r} — {others}")
-    name = f"{vocabulary}.{family}.csv"
-    text = resources.files("mien.vocab").joinpath(FOLDER, name).read_text(encoding="utf-8")
-    return parse_remap(text, title=f"{vocabulary}.{family}", place=name)
+    title = f"{vocabulary}.{family}"
+    return parse_remap(shipped_text(title), title=title, place=f"{title}.csv")
 
 
 def families(vocabulary: str) -> tuple[str, ...]:
     """Families of faces that a vocabulary can play."""
-    names = sorted(entry.name for entry in resources.files("mien.vocab").joinpath(FOLDER).iterdir())
-    parts = [name.removesuffix(".csv").split(".") for name in names if name.endswith(".csv")]
+    parts = (name.split(".") for name in shipped_tables())
     return tuple(part[1] for part in parts if len(part) == 2 and part[0] == vocabulary)
 
 
 def parse_remap(text: str, *, title: str, place: str) -> Remap:
     """The remap in a table: lines of name, parameter, gain, blend (add, or multiply) and source.
+
+    A line that names a ``{side}`` stands for one of either side.
 
     Raises:
         LoadError: with the line at which the table goes wrong.
@@ -179,16 +189,18 @@ def parse_remap(text: str, *, title: str, place: str) -> Remap:
     entries: dict[str, list[tuple[int, int, float]]] = {blend: [] for blend in BLENDS}
     sources: dict[tuple[str, str], str] = {}
     for row in reader:
-        name, parameter, gain, blend = _parse_row(row, fields[0], place, reader.line_num)
-        column = from_names.setdefault(name, len(from_names))
-        entries[blend].append((to_names.setdefault(parameter, len(to_names)), column, gain))
-        sources[name, parameter] = row["source"]
+        gain, blend = _parse_row(row, place, reader.line_num)
+        for side in each_side(row):
+            name, parameter = side[fields[0]], side["parameter"]
+            column = from_names.setdefault(name, len(from_names))
+            entries[blend].append((to_names.setdefault(parameter, len(to_names)), column, gain))
+            sources[name, parameter] = row["source"]
     shape = (len(to_names), len(from_names))
     gains, factors = (_matrix(entries[blend], shape) for blend in BLENDS)
     return Remap(title, tuple(from_names), tuple(to_names), gains, factors, sources)
 
 
-def _parse_row(row: Mapping[str, str], first: str, place: str, line: int) -> tuple[str, str, float, str]:
+def _parse_row(row: Mapping[str, str], place: str, line: int) -> tuple[float, str]:
     if None in row.values() or None in row:
         raise LoadError(place, f"want {len(row)} fields", line=line)
     try:
@@ -200,7 +212,7 @@ def _parse_row(row: Mapping[str, str], first: str, place: str, line: int) -> tup
     blend = row.get("blend") or BLENDS[0]
     if blend not in BLENDS:
         raise LoadError(place, f"blend {blend!r} is not {' or '.join(BLENDS)}", line=line)
-    return row[first], row["parameter"], gain, blend
+    return gain, blend
 
 
 def _matrix(entries: list[tuple[int, int, float]], shape: tuple[int, int]) -> SparseMatrix:

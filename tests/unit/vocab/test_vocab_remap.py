@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from mien.core import LoadError, MienError, ParameterTable, UnknownNameError
 from mien.core.parameters import Parameter, both_sides
 from mien.timeline import Track
-from mien.vocab import Remap, channel_table, families, load_remap, parse_remap
+from mien.vocab import Remap, families, load_remap, parse_remap, vocabulary
 
 TABLE = """channel,parameter,gain,blend,source
 jaw,jaw.rotation,13,add,own
@@ -122,15 +122,15 @@ def test_family_without_a_table_is_refused() -> None:
 def test_every_row_of_a_table_has_a_source_and_a_known_channel(family: str) -> None:
     remap = load_remap("channels", family)
     assert all(remap.sources.values())
-    assert set(remap.from_names) <= set(channel_table().names)
+    assert set(remap.from_names) <= set(vocabulary("channels").names)
 
 
 def test_head_table_plays_every_channel_and_every_parameter_exists() -> None:
     from mien.faces.head.table import head_table
 
     remap = load_remap("channels", "head")
-    remap.check(channel_table(), head_table())
-    assert set(remap.from_names) == set(channel_table().names)
+    remap.check(vocabulary("channels"), head_table())
+    assert set(remap.from_names) == set(vocabulary("channels").names)
 
 
 def test_head_table_is_the_same_left_and_right() -> None:
@@ -150,4 +150,4 @@ def test_shut_lips_are_parted_by_nothing_that_speech_plays_on_the_head() -> None
 
 
 def test_channels_rest_at_zero() -> None:
-    assert not np.any(channel_table().defaults)
+    assert not np.any(vocabulary("channels").defaults)

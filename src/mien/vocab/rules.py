@@ -1,0 +1,64 @@
+"""What names of one vocabulary mean to one another: some fight, some mean nothing alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+
+from .tables import shipped_rows, shipped_tables
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What a name is worth beside another.
+
+    Attributes:
+        name: whose value changes.
+        kind: ``gives way to``: at the other's full value all but ``share`` is left of it, so two names that give way
+            to one another meet in the middle; ``is part of``: it counts as a part of the other's value and is nothing
+            without it.
+        other: the name beside it, which does not change by this rule.
+        share: of the name's value that the rule is about.
+        source: where this comes from.
+    """
+
+    name: str
+    kind: str
+    other: str
+    share: float
+    source: str
+
+
+def _give_way(value: float, other: float, share: float) -> float:
+    return value * (1.0 - share * min(other, 1.0))
+
+
+def _be_part(value: float, other: float, share: float) -> float:
+    part = min(value / other, 1.0) if other > 0.0 else 0.0
+    return value + share * (part - value)
+
+
+KINDS: Mapping[str, Callable[[float, float, float], float]] = {"gives way to": _give_way, "is part of": _be_part}
+
+
+@cache
+def load_rules(vocabulary: str) -> tuple[Rule, ...]:
+    """The rules of a vocabulary; many have none."""
+    table = f"{vocabulary}_rules"
+    if table not in shipped_tables():
+        return ()
+    return tuple(
+        Rule(row["name"], row["rule"], row["other"], float(row["share"]), row["source"]) for row in shipped_rows(table)
+    )
+
+
+def settle(values: Mapping[str, float], rules: Iterable[Rule]) -> dict[str, float]:
+    """The values after all rules, each of which looks at the values as given, so that their order does not matter
+    and a small change of a value is a small change of the result.
+    """
+    settled = dict(values)
+    for rule in rules:
+        if rule.name in settled:
+            settled[rule.name] = KINDS[rule.kind](settled[rule.name], values.get(rule.other, 0.0), rule.share)
+    return settled
