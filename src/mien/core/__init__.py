@@ -6,6 +6,7 @@ from .errors import LoadError, MienError, RangeError, UnknownNameError
 from .face import Face, Preset
 from .mesh import Material, Mesh, Part, Topology, build_topology
 from .parameters import Parameter, ParameterTable, Pose, both_sides, color
+from .rig import Joint, Motion, Rig, Rigged
 from .scene import Light, Scene, fill_rows
 from .sound import Sound
 from .subdivision import subdivide
@@ -15,11 +16,13 @@ __all__ = [
     "Cue",
     "Drawing",
     "Face",
+    "Joint",
     "Light",
     "LoadError",
     "Material",
     "Mesh",
     "MienError",
+    "Motion",
     "Parameter",
     "ParameterTable",
     "Part",
@@ -27,6 +30,8 @@ __all__ = [
     "Pose",
     "Preset",
     "RangeError",
+    "Rig",
+    "Rigged",
     "Scene",
     "Sound",
     "Topology",

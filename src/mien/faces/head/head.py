@@ -17,7 +17,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mien.core import Mesh, MienError, ParameterTable, Pose, Preset, Topology
+from mien.core import Mesh, MienError, ParameterTable, Pose, Preset, Rig, Topology
 from mien.core.mesh import Points
 
 from . import brows, eyes, shades
@@ -29,6 +29,7 @@ from .parts import Layout, lay_out
 from .poser import Eyes, Jaw, Poser
 from .presets import head_presets
 from .residual import Residual, apply_residual, carry, eyes_of
+from .rig import head_rig
 from .table import head_table
 from .units import DEG
 
@@ -107,6 +108,11 @@ class Head:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(lambda run: self._poser.pose_many(values[run], points[run]), runs))
         return points
+
+    def rig(self, pose: Pose) -> Rig:
+        """Skull, jaw and eyes as what moves as a whole in poses that differ from this one by movements only."""
+        self._check(pose.table)
+        return head_rig(self._layout, self._measured.points, pose, self.shape)
 
     def _check(self, table: ParameterTable) -> None:
         if table is not self.parameters and table.names != self.parameters.names:
