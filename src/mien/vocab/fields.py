@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from mien.core import Drawing, Face, MienError, Pose
 from mien.core.mesh import Points
 
 from .posing import pose_from
-from .rules import load_rules
-
-
-def companions(vocabulary: str, name: str) -> dict[str, float]:
-    """The values without which a name means nothing, at their fullest: of ``mouthClose`` it is ``jawOpen``."""
-    return {rule.other: 1.0 for rule in load_rules(vocabulary) if rule.name == name and rule.kind == "is part of"}
+from .rules import companions
 
 
 def displacement(vocabulary: str, name: str, face: Face) -> Points:
@@ -28,11 +21,6 @@ def displacement(vocabulary: str, name: str, face: Face) -> Points:
     beside = companions(vocabulary, name)
     before = _points(face, pose_from(vocabulary, beside, face))
     return _points(face, pose_from(vocabulary, {**beside, name: 1.0}, face)) - before
-
-
-def displacements(vocabulary: str, names: tuple[str, ...], face: Face) -> Mapping[str, Points]:
-    """(V, 3) m of each name."""
-    return {name: displacement(vocabulary, name, face) for name in names}
 
 
 def longest_mm(field: Points) -> float:

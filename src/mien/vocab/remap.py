@@ -16,9 +16,11 @@ from mien.core.sparse import SparseMatrix
 from mien.timeline import Track
 
 from .tables import each_side, shipped_tables, shipped_text
+from .vocabulary import vocabularies
 
 COLUMNS = ("parameter", "gain", "source")
 BLENDS = ("add", "multiply")
+FITS = ("exact", "near")
 
 Value = TypeVar("Value", float, Track)
 
@@ -37,6 +39,7 @@ class Remap:
         gains: (to, from) what is added.
         factors: (to, from) what multiplies, less 1.
         sources: where each row of the table comes from: (from, to) -> text.
+        approximate: names that the parameters come near to only.
     """
 
     title: str
@@ -45,6 +48,7 @@ class Remap:
     gains: SparseMatrix
     factors: SparseMatrix
     sources: Mapping[tuple[str, str], str]
+    approximate: frozenset[str] = frozenset()
 
     @cached_property
     def index(self) -> Mapping[str, int]:
@@ -156,8 +160,11 @@ def load_remap(vocabulary: str, family: str) -> Remap:
     """The shipped remap from a vocabulary to a family of faces.
 
     Raises:
+        UnknownNameError: there is no such vocabulary.
         MienError: there is no table for the two.
     """
+    if vocabulary not in vocabularies():
+        raise UnknownNameError("vocabulary", vocabulary, vocabularies())
     known = families(vocabulary)
     if family not in known:
         others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
@@ -173,7 +180,7 @@ def families(vocabulary: str) -> tuple[str, ...]:
 
 
 def parse_remap(text: str, *, title: str, place: str) -> Remap:
-    """The remap in a table: lines of name, parameter, gain, blend (add, or multiply) and source.
+    """The remap in a table: lines of name, parameter, gain, blend (add, or multiply), fit (exact, or near) and source.
 
     A line that names a ``{side}`` stands for one of either side.
 
@@ -188,19 +195,21 @@ def parse_remap(text: str, *, title: str, place: str) -> Remap:
     to_names: dict[str, int] = {}
     entries: dict[str, list[tuple[int, int, float]]] = {blend: [] for blend in BLENDS}
     sources: dict[tuple[str, str], str] = {}
+    approximate: set[str] = set()
     for row in reader:
-        gain, blend = _parse_row(row, place, reader.line_num)
+        gain, blend, fit = _parse_row(row, place, reader.line_num)
         for side in each_side(row):
             name, parameter = side[fields[0]], side["parameter"]
             column = from_names.setdefault(name, len(from_names))
             entries[blend].append((to_names.setdefault(parameter, len(to_names)), column, gain))
             sources[name, parameter] = row["source"]
+            approximate |= {name} if fit == FITS[1] else set()
     shape = (len(to_names), len(from_names))
     gains, factors = (_matrix(entries[blend], shape) for blend in BLENDS)
-    return Remap(title, tuple(from_names), tuple(to_names), gains, factors, sources)
+    return Remap(title, tuple(from_names), tuple(to_names), gains, factors, sources, frozenset(approximate))
 
 
-def _parse_row(row: Mapping[str, str], place: str, line: int) -> tuple[float, str]:
+def _parse_row(row: Mapping[str, str], place: str, line: int) -> tuple[float, str, str]:
     if None in row.values() or None in row:
         raise LoadError(place, f"want {len(row)} fields", line=line)
     try:
@@ -209,10 +218,16 @@ def _parse_row(row: Mapping[str, str], place: str, line: int) -> tuple[float, st
         gain = math.nan
     if not math.isfinite(gain):
         raise LoadError(place, f"gain {row['gain']!r} is not a finite number", line=line)
-    blend = row.get("blend") or BLENDS[0]
-    if blend not in BLENDS:
-        raise LoadError(place, f"blend {blend!r} is not {' or '.join(BLENDS)}", line=line)
-    return gain, blend
+    blend, fit = (_choose(row, key, choices, place, line) for key, choices in (("blend", BLENDS), ("fit", FITS)))
+    return gain, blend, fit
+
+
+def _choose(row: Mapping[str, str], key: str, choices: tuple[str, ...], place: str, line: int) -> str:
+    """What a row says, or the first choice when it says nothing."""
+    choice = row.get(key) or choices[0]
+    if choice not in choices:
+        raise LoadError(place, f"{key} {choice!r} is not {' or '.join(choices)}", line=line)
+    return choice
 
 
 def _matrix(entries: list[tuple[int, int, float]], shape: tuple[int, int]) -> SparseMatrix:

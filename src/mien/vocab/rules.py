@@ -17,7 +17,7 @@ class Rule:
         name: whose value changes.
         kind: ``gives way to``: at the other's full value all but ``share`` is left of it, so two names that give way
             to one another meet in the middle; ``is part of``: it counts as a part of the other's value and is nothing
-            without it.
+            without it; ``is seen beside``: it keeps its value and is only seen beside the other.
         other: the name beside it, which does not change by this rule.
         share: of the name's value that the rule is about.
         source: where this comes from.
@@ -39,7 +39,15 @@ def _be_part(value: float, other: float, share: float) -> float:
     return value + share * (part - value)
 
 
-KINDS: Mapping[str, Callable[[float, float, float], float]] = {"gives way to": _give_way, "is part of": _be_part}
+def _keep(value: float, other: float, share: float) -> float:
+    return value
+
+
+KINDS: Mapping[str, Callable[[float, float, float], float]] = {
+    "gives way to": _give_way,
+    "is part of": _be_part,
+    "is seen beside": _keep,
+}
 
 
 @cache
@@ -51,6 +59,15 @@ def load_rules(vocabulary: str) -> tuple[Rule, ...]:
     return tuple(
         Rule(row["name"], row["rule"], row["other"], float(row["share"]), row["source"]) for row in shipped_rows(table)
     )
+
+
+def companions(vocabulary: str, name: str) -> dict[str, float]:
+    """The values without which a name is not seen, at their fullest: of ``mouthClose`` it is ``jawOpen``."""
+    return {
+        rule.other: 1.0
+        for rule in load_rules(vocabulary)
+        if rule.name == name and rule.kind in ("is part of", "is seen beside")
+    }
 
 
 def settle(values: Mapping[str, float], rules: Iterable[Rule]) -> dict[str, float]:

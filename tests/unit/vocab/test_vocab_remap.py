@@ -114,7 +114,7 @@ def test_wrong_header_is_named() -> None:
 def test_family_without_a_table_is_refused() -> None:
     with pytest.raises(MienError, match=r"'channels' cannot play .* 'marionette' — there is a table for head"):
         load_remap("channels", "marionette")
-    with pytest.raises(MienError, match="no family"):
+    with pytest.raises(UnknownNameError, match="unknown vocabulary"):
         load_remap("klingon", "head")
 
 

@@ -1,0 +1,133 @@
+"""What is lost when a face, or another vocabulary on it, takes the names of a vocabulary."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Face
+from mien.core.mesh import Points
+
+from .fields import angle_deg, displacement, longest_mm
+from .remap import load_remap
+from .vocabulary import vocabulary
+
+Matrix = NDArray[np.float64]
+
+SWEEPS = 200
+"""Rounds over all names in which the shares of a combination are improved; they stand still long before."""
+
+MOST_NAMES = 6
+LEAST_GAIN_DEG = 1.0
+"""A combination has so many names at most, and one that brings it no nearer than this is left out."""
+
+FAR_DEG = 60.0
+"""A combination that is as far off as this, half of the field or less, says something else."""
+
+
+@dataclass(frozen=True)
+class Loss:
+    """What becomes of one name.
+
+    Attributes:
+        name: the name.
+        fit: ``exact``, ``near`` (approximated) or ``missing``.
+        longest_mm: how far the point moves that moves most.
+        nearest: the names that it is compared with, and how much of each: on a face the one other name that does most
+            nearly the same, in another vocabulary the best combination.
+        angle_deg: between its displacement field and that of ``nearest``; 0 where they do the same.
+    """
+
+    name: str
+    fit: str
+    longest_mm: float = 0.0
+    nearest: Mapping[str, float] = field(default_factory=dict)
+    angle_deg: float = 90.0
+
+
+def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
+    """What a face makes of each name of a vocabulary, and which other name does most nearly the same.
+
+    Two names that do the same on a face (0 degrees) are told apart by nobody who looks at it.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+        MienError: the face has no mesh, or no table for the vocabulary.
+    """
+    remap, fields = load_remap(name, face.family), _fields(name, face)
+    names, found = tuple(fields), {}
+    for each, likeness in zip(names, _likeness(fields), strict=True):
+        other = names[int(likeness.argmax())]
+        fit = "near" if each in remap.approximate else "exact"
+        angle = angle_deg(fields[each], fields[other])
+        found[each] = Loss(each, fit, longest_mm(fields[each]), {other: 1.0}, angle)
+    return tuple(found.get(each, Loss(each, "missing")) for each in vocabulary(name).names)
+
+
+def loss_to(name: str, other: str, face: Face) -> tuple[Loss, ...]:
+    """How well names of another vocabulary can say each name of this one, both played by one face.
+
+    For each a combination of a few of the other's names, 0..1 each, whose fields add up to a near field.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+        MienError: the face has no mesh, or no table for a vocabulary.
+    """
+    wanted, given = _fields(name, face), _fields(other, face)
+    found = {each: _say(each, wish, given) for each, wish in wanted.items()}
+    return tuple(found.get(each, Loss(each, "missing")) for each in vocabulary(name).names)
+
+
+def _say(name: str, wish: Points, given: Mapping[str, Points]) -> Loss:
+    """The loss of one name, whose field is ``wish`` (V, 3), among those of another vocabulary."""
+    names = list(given)
+    basis = np.stack([each.ravel() for each in given.values()])
+    products, square = basis @ wish.ravel(), basis @ basis.T
+    lengths = np.maximum(np.sqrt(np.diag(square)), 1e-12)
+    chosen: list[int] = []
+    shares, best, angle = np.zeros(0), np.zeros(0), 90.0
+    while len(chosen) < MOST_NAMES:
+        missed = products - square[:, chosen] @ shares
+        chosen.append(int((missed / lengths).argmax()))
+        shares = nearest_shares(square[np.ix_(chosen, chosen)], products[chosen])
+        reached = angle_deg(wish, (shares @ basis[chosen]).reshape(-1, 3))
+        if reached > angle - LEAST_GAIN_DEG:
+            break
+        best, angle = shares, reached
+    if angle >= FAR_DEG:
+        return Loss(name, "missing", longest_mm(wish))
+    used = {names[n]: float(share) for n, share in zip(chosen, best, strict=False) if share > 0.0}
+    return Loss(name, "exact" if angle < LEAST_GAIN_DEG else "near", longest_mm(wish), used, angle)
+
+
+def nearest_shares(square: Matrix, products: Matrix) -> Matrix:
+    """(N,) shares 0..1 of N vectors whose sum comes nearest to a wanted one.
+
+    Args:
+        square: (N, N) products of the vectors with one another.
+        products: (N,) products of the vectors with the wanted one.
+
+    Source: coordinate descent for least squares with bounds; the problem is convex.
+    """
+    shares = np.zeros(len(products))
+    for _ in range(SWEEPS):
+        for n in range(len(shares)):
+            if square[n, n] > 0.0:
+                better = shares[n] + (products[n] - square[n] @ shares) / square[n, n]
+                shares[n] = min(max(better, 0.0), 1.0)
+    return shares
+
+
+def _fields(name: str, face: Face) -> dict[str, Points]:
+    return {each: displacement(name, each, face) for each in load_remap(name, face.family).from_names}
+
+
+def _likeness(fields: Mapping[str, Points]) -> Matrix:
+    """(N, N) cosines of the angles between fields; -1 of each with itself."""
+    directions = np.stack([each.ravel() / max(float(np.linalg.norm(each)), 1e-12) for each in fields.values()])
+    cosines = directions @ directions.T
+    np.fill_diagonal(cosines, -1.0)
+    return np.asarray(cosines)
