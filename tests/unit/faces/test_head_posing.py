@@ -53,7 +53,7 @@ def test_more_poses_than_a_chunk_and_none_at_all():
 
 
 def test_poses_of_another_table_are_refused():
-    with pytest.raises(MienError, match=r"\(N, 131\)"):
+    with pytest.raises(MienError, match=rf"\(N, {len(TABLE)}\)"):
         shapes(HEAD, np.zeros((4, 7)))
     with pytest.raises(RangeError, match="0 threads"):
         shapes(HEAD, np.zeros((4, len(TABLE))), threads=0)

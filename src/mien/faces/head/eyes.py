@@ -159,7 +159,7 @@ def fill_radii(iris, pupil, fringe, radii):
 
 
 @kernel()
-def place_eye(centre, radius, forward, radii, steps, circle, points, normals):
+def place_eye(centre, radius, forward, radii, wide, steps, circle, points, normals):
     """Fill ``points`` (N, 3) m and ``normals`` (N, 3) of a ball: the pupil, then the rings of each band.
 
     Args:
@@ -167,6 +167,7 @@ def place_eye(centre, radius, forward, radii, steps, circle, points, normals):
         radius: of the ball, m.
         forward: unit vector, where it looks.
         radii: of ``fill_radii``.
+        wide: width of pupil, iris and fringe over what it is on a ball that nothing stretches; their height is 1/wide.
         steps: (6,) rings less one of each band.
         circle: (sides, 2) of ``circle``.
         points: filled.
@@ -183,10 +184,13 @@ def place_eye(centre, radius, forward, radii, steps, circle, points, normals):
                 c, s = c + t * (radii[band + 1, 0] - c), s + t * (radii[band + 1, 1] - s)
                 size = np.sqrt(c * c + s * s)
                 c, s = c / size, s / size
+            colored = wide != 1.0 and (band < 2 or (band == 2 and ring == 0))
             for corner in range(sides):
+                across, up, ahead = s * circle[corner, 0], s * circle[corner, 1], c
+                if colored:
+                    across, up, ahead = unit_or_ahead(across * wide, up / wide, ahead)
                 for axis in range(3):
-                    spoke = circle[corner, 0] * aside[axis] + circle[corner, 1] * above[axis]
-                    normal = c * forward[axis] + s * spoke
+                    normal = ahead * forward[axis] + across * aside[axis] + up * above[axis]
                     normals[first + corner, axis] = normal
                     points[first + corner, axis] = centre[axis] + radius * normal
             first += sides

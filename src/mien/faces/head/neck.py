@@ -13,6 +13,8 @@ from .angles import turn
 from .measured import Floats
 
 PIVOT = (0.0, -0.085, -0.022)
+"""Where the resting head turns on its neck, m."""
+
 BASE_Y_M, BASE_SLOPE = -0.163, -0.19
 """The neck ends on the plane y = -0.163 - 0.19 z, where the collar sits."""
 
@@ -27,7 +29,7 @@ def neck_share(points: Points) -> Floats:
 
 @kernel()
 def turn_point(x, y, z, angles):
-    """A point about the neck's pivot tilted, nodded, then turned; ``angles`` are turn, nod and tilt, radians."""
+    """A point about the pivot tilted, nodded, then turned; ``angles`` are turn, nod and tilt, radians."""
     turned, nodded, tilted = angles
     x, y = turn(x, y, -tilted)
     y, z = turn(y, z, -nodded)
@@ -36,16 +38,16 @@ def turn_point(x, y, z, angles):
 
 
 @kernel()
-def turn_back(place, angles):
+def turn_back(place, angles, pivot):
     """A place in the room, m, as the turned head sees it: the inverse of ``turn_head``."""
     turned, nodded, tilted = angles
     if turned == 0.0 and nodded == 0.0 and tilted == 0.0:
         return place[0], place[1], place[2]
-    x, y, z = place[0] - PIVOT[0], place[1] - PIVOT[1], place[2] - PIVOT[2]
+    x, y, z = place[0] - pivot[0], place[1] - pivot[1], place[2] - pivot[2]
     z, x = turn(z, x, -turned)
     y, z = turn(y, z, nodded)
     x, y = turn(x, y, tilted)
-    return x + PIVOT[0], y + PIVOT[1], z + PIVOT[2]
+    return x + pivot[0], y + pivot[1], z + pivot[2]
 
 
 @kernel()
@@ -69,18 +71,18 @@ def turn_directions(directions, axes):
 
 
 @kernel()
-def turn_head(points, share, axes, angles):
-    """Tilt, nod, then turn points (V, 3) m about the neck's pivot, each by its share (V,) of the angles."""
+def turn_head(points, share, axes, angles, pivot):
+    """Tilt, nod, then turn points (V, 3) m about the neck's ``pivot``, m, each by its share (V,) of the angles."""
     turned, nodded, tilted = angles
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axes
     for v in range(len(points)):
         if share[v] == 0.0:
             continue
-        x, y, z = points[v, 0] - PIVOT[0], points[v, 1] - PIVOT[1], points[v, 2] - PIVOT[2]
+        x, y, z = points[v, 0] - pivot[0], points[v, 1] - pivot[1], points[v, 2] - pivot[2]
         if share[v] >= 1.0:
-            points[v, 0] = ax * x + bx * y + cx * z + PIVOT[0]
-            points[v, 1] = ay * x + by * y + cy * z + PIVOT[1]
-            points[v, 2] = az * x + bz * y + cz * z + PIVOT[2]
+            points[v, 0] = ax * x + bx * y + cx * z + pivot[0]
+            points[v, 1] = ay * x + by * y + cy * z + pivot[1]
+            points[v, 2] = az * x + bz * y + cz * z + pivot[2]
         else:
             x, y, z = turn_point(x, y, z, (turned * share[v], nodded * share[v], tilted * share[v]))
-            points[v, 0], points[v, 1], points[v, 2] = x + PIVOT[0], y + PIVOT[1], z + PIVOT[2]
+            points[v, 0], points[v, 1], points[v, 2] = x + pivot[0], y + pivot[1], z + pivot[2]

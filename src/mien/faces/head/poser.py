@@ -12,6 +12,7 @@ from mien.core.sparse import SparseMatrix
 
 from . import posing
 from .brows import BrowRegions, BrowStrips, brow_moves
+from .conformation import Shaper
 from .eyes import SPOT_SIDES, band_steps, circle
 from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
@@ -19,7 +20,7 @@ from .measured import Archive, Floats, Measured
 from .mouth import MouthRegions, smile_moves
 from .moves import Moves, moves_of
 from .muscles import muscle_moves
-from .neck import neck_share
+from .neck import PIVOT, neck_share
 from .parts import Layout
 from .rest import REST_OPENING
 from .tongue import tip_share
@@ -94,6 +95,9 @@ class Poser:
         self._columns = np.array([table.index[name] for name in posing.CONTROLS], dtype=np.int64)
         moves = [*muscle_moves(measured.morphs), *brow_moves(brows, measured), *smile_moves(measured)]
         self._moves: Moves = moves_of(moves, table)
+        centres = eyes.balls[:, :3]
+        unbound = layout.join(rest)[layout.span["teeth"].start :]
+        self._shaper = Shaper(table, centres, (measured.points, unbound, np.concatenate([centres, [PIVOT]])))
         self._skin = np.ascontiguousarray(measured.points).ravel()
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
@@ -102,12 +106,13 @@ class Poser:
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
         share[layout.span["collar"]] = 0.0
         self._constants = (
-            *(np.array([*starts, layout.span["tongue"].stop], dtype=np.int64), eyes.balls, eyes.kappa_deg),
+            np.array([*starts, layout.span["tongue"].stop], dtype=np.int64),
+            *(np.concatenate([eyes.balls, [(*PIVOT, 0.0)]]), eyes.kappa_deg),
             *(mouth.rows, mouth.moving, mouth.tuck[mouth.rows]),
             *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
             *(lids.numbers, lids.polar, lids.rest, REST_OPENING),
-            *(layout.skin, layout.join(rest)[layout.span["teeth"].start :].ravel()),
+            *(layout.skin, unbound.ravel()),
             *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
@@ -141,10 +146,11 @@ class Poser:
         count = len(values)
         skins = skins.reshape(count, -1, 3)
         size = skins.shape[1]
-        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)))
+        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)), np.empty((3, 4)))
         flat = points.reshape(count, -1)
         controls = np.take(values, self._columns, axis=1)
-        posing.pose_heads(controls, *self._constants, *scratch, skins, points, flat, normals, colors)
+        shape = self._shaper.steps(values)
+        posing.pose_heads(controls, *self._constants, *shape, *scratch, skins, points, flat, normals, colors)
 
 
 def _polygons_around(quads: Ints, vertices: Ints, count: int) -> tuple[Ints, Ints, Ints]:

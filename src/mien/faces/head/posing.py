@@ -11,9 +11,12 @@ Source: Parke 1974, chapter 3.
 
 from __future__ import annotations
 
+import numpy as np
+
 from mien.compiling import kernel
 
 from .brows import place_brows, sum_normals
+from .conformation import shape_held, shape_points
 from .eyes import fill_radii, look_at, place_eye, place_spot
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
@@ -23,10 +26,12 @@ from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
 from .units import DEG
+from .vectors import unit
 
 SINGLE = (
     *("jaw.rotation", "jaw.side", "jaw.forward", "mouth.width", "mouth.offset", "mouth.upper_lip", "mouth.tuck"),
     *("mouth.closure", "tongue.raise", "tongue.out", "head.turn", "head.nod", "head.tilt"),
+    *("head.scale.width", "head.scale.height", "head.scale.depth"),
     *(f"{group}.{axis}" for group in ("target", "light", "viewer") for axis in "xyz"),
 )
 PAIRED = (
@@ -37,8 +42,8 @@ CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".ri
 """Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
 
 JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP_UP, TIP_OUT, TURN, NOD, TILT = range(13)
-TARGET, LIGHT, VIEWER, CORNERS = 13, 16, 19, 22
-OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT = range(30, 44, 2)
+SCALE, TARGET, LIGHT, VIEWER, CORNERS = 13, 16, 19, 22, 25
+OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT = range(33, 47, 2)
 """Columns of ``CONTROLS``; of a pair, or of a place, the first."""
 
 EYE, SPOTS, CARUNCLE, LASH, BROW, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13
@@ -55,17 +60,25 @@ TONGUE_SHIFT = 0.7
 
 
 @kernel()
-def aim_eyes(c, balls, kappa_deg, angles, gaze):
+def seen_from_rest(c, first, angles, pivot):
+    """A place in the room, three controls from ``first`` on, as the head saw it before it was scaled and turned."""
+    x, y, z = turn_back(c[first : first + 3], angles, pivot)
+    return x / c[SCALE], y / c[SCALE + 1], z / c[SCALE + 2]
+
+
+@kernel()
+def aim_eyes(c, balls, kappa_deg, angles, pivot, gaze):
     """Fill ``gaze`` (2, 3), the directions of both eyes.
 
     Args:
         c: a row of controls.
-        balls: (2, 4) m, centre and radius.
+        balls: (2.., 4) m, centre and radius.
         kappa_deg: (2,) angle added to the turn of each.
         angles: turn, nod and tilt of the head, radians.
+        pivot: of the turned head, m.
         gaze: filled.
     """
-    target = turn_back(c[TARGET : TARGET + 3], angles)
+    target = seen_from_rest(c, TARGET, angles, pivot)
     for side in range(2):
         forward = look_at(balls[side], target, c[EYE_TURN + side] + kappa_deg[side], c[EYE_NOD + side])
         gaze[side, 0], gaze[side, 1], gaze[side, 2] = forward
@@ -103,7 +116,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
 
 
 @kernel()
-def place_eyes(c, skin, gaze, parts, balls, rings, angles, radii, points, normals):
+def place_eyes(c, skin, gaze, parts, balls, rings, angles, pivot, radii, points, normals):
     """Fill the eyes of ``points`` and ``normals`` (V, 3): balls, spots, and the pink corners between the lids.
 
     Args:
@@ -114,18 +127,20 @@ def place_eyes(c, skin, gaze, parts, balls, rings, angles, radii, points, normal
         balls: (2, 4) m, centre and radius.
         rings: steps and circle of ``place_eye``, hexagon of ``place_spot``, corners (2, 5) of ``place_caruncle``.
         angles: turn, nod and tilt of the head, radians.
+        pivot: of the turned head, m.
         radii: (7, 2), overwritten.
         points: filled.
         normals: filled.
     """
     steps, circle, hexagon, corners = rings
-    light = turn_back(c[LIGHT : LIGHT + 3], angles)
-    viewer = turn_back(c[VIEWER : VIEWER + 3], angles)
+    light, viewer = seen_from_rest(c, LIGHT, angles, pivot), seen_from_rest(c, VIEWER, angles, pivot)
+    # What the head's scale will stretch is squeezed before, so that irises stay round.
+    wide = np.sqrt(c[SCALE + 1] / c[SCALE])
     for side in range(2):
         centre, radius, forward = balls[side], balls[side, 3], gaze[side]
         ball, spot, corner = parts[EYE + side], parts[SPOTS + side], parts[CARUNCLE + side]
         fill_radii(c[IRIS + side], c[PUPIL + side], c[FRINGE + side], radii)
-        place_eye(centre, radius, forward, radii, steps, circle, points[ball:], normals[ball:])
+        place_eye(centre, radius, forward, radii, wide, steps, circle, points[ball:], normals[ball:])
         sizes = c[IRIS + side], c[SPOT + side]
         place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points[spot:])
         place_caruncle(skin, corners[side], centre, radius, side == 1, points[corner:])
@@ -191,10 +206,23 @@ def darken(parts, balls, lip_edge, points, colors):
 
 
 @kernel()
-def turn_all(parts, neck_share, angles, points, normals):
+def scale_all(c, parts, points, normals):
+    """Scale ``points`` (V, 3) m about the middle of the head, and the ``normals`` of the eyes to fit."""
+    for v in range(len(points)):
+        for axis in range(3):
+            points[v, axis] *= c[SCALE + axis]
+    for side in range(2):
+        first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
+        for v in range(first, last):
+            x, y, z = normals[v, 0] / c[SCALE], normals[v, 1] / c[SCALE + 1], normals[v, 2] / c[SCALE + 2]
+            normals[v, 0], normals[v, 1], normals[v, 2] = unit(x, y, z)
+
+
+@kernel()
+def turn_all(parts, neck_share, angles, pivot, points, normals):
     """Turn ``points`` (V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes."""
     axes = turn_axes(angles)
-    turn_head(points, neck_share, axes, angles)
+    turn_head(points, neck_share, axes, angles, pivot)
     for side in range(2):
         first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
         turn_directions(normals[first:last], axes)
@@ -239,7 +267,11 @@ def add_moves(weights, deltas, rest, skins):
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:], f8[:,:], "  # inside of the mouth
     "i8, f8[:], "  # lip's edge, neck
-    "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], "  # scratch
+    "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
+    "i8[:], i8[:], f8[:,:], "  # what the skin takes of them
+    "i8[:], i8[:], f8[:,:], "  # what the rest takes of them
+    "i8[:], i8[:], f8[:,:], "  # what is held takes of them
+    "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], f8[:,:], "  # scratch
     "f8[:,:,:], f8[:,:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
 )
 def pose_heads(
@@ -255,7 +287,11 @@ def pose_heads(
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tip_share, chin,
     lip_edge, neck_share,
-    gaze, radii, scratch, waves,
+    amounts, kinds, axes, origins,
+    skin_starts, skin_rows, skin_weights,
+    rest_starts, rest_rows, rest_weights,
+    held_starts, held_rows, held_weights,
+    gaze, radii, scratch, waves, held,
     skins, points, flat, normals, colors,
 ):
     """Fill the points of N heads, and the normals and shadows of as many as there is room for.
@@ -263,7 +299,7 @@ def pose_heads(
     Args:
         controls: (N, D) values of ``CONTROLS``.
         parts: first vertex of each of ``PARTS``.
-        balls: (2, 4) m, centre and radius; kappa_deg: of ``aim_eyes``.
+        balls: (3, 4) m, centre and radius of the eyes, and the neck's pivot; kappa_deg: of ``aim_eyes``.
         lips: lip_regions, tuck_share, jaw, contacts, lids: of ``deform_skin``.
         source: (K,) vertex of the skin of each of the first K vertices.
         rest: (3 R,) m, at rest, of the vertices from the first of the teeth on.
@@ -272,7 +308,8 @@ def pose_heads(
         carried: tip_share, chin: of ``place_inside``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
-        gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S): overwritten.
+        amounts: (N, K), and what follows: of ``shape_points``, for the skin, the rest, and the balls.
+        gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S), held (3, 4): overwritten.
         skins: (N, S, 3) m with their moves; changed.
         points: (N, V, 3) m, filled.
         flat: (N, 3 V), the same memory: a run of numbers is copied several at a time.
@@ -283,23 +320,30 @@ def pose_heads(
     for frame in range(len(controls)):
         c, skin, out, around = controls[frame], skins[frame], points[frame], normals[min(frame, len(normals) - 1)]
         angles = c[TURN] * DEG, c[NOD] * DEG, c[TILT] * DEG
-        aim_eyes(c, balls, kappa_deg, angles, gaze)
+        shape = amounts[frame], kinds, axes, origins
+        shape_held(balls, shape, held_starts, held_rows, held_weights, held)
+        pivot = held[2, 0] * c[SCALE], held[2, 1] * c[SCALE + 1], held[2, 2] * c[SCALE + 2]
+        aim_eyes(c, held, kappa_deg, angles, pivot, gaze)
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
         contacts = bridge, contact_numbers, contact_shares, contact_gaps
         lids = lid_numbers, lid_polar, lid_rest, rest_opening
         deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
+        shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
         for v in range(len(source)):
             for axis in range(3):
                 out[v, axis] = skin[source[v], axis]
         run = flat[frame, 3 * parts[TEETH] :]
         for i in range(len(rest)):
             run[i] = rest[i]
-        place_eyes(c, skin, gaze, parts, balls, (steps, circle, hexagon, corners), angles, radii, out, around)
+        place_eyes(c, skin, gaze, parts, held, (steps, circle, hexagon, corners), angles, pivot, radii, out, around)
         lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
         under = quads, brow_vertices, brow_starts, brow_quads
-        place_hairs(skin, parts, balls, lashes, brows, under, scratch[0], out)
+        place_hairs(skin, parts, held, lashes, brows, under, scratch[0], out)
         place_inside(c, parts, carried, tip_share, jaw_axis, chin, out)
+        shape_points(out[parts[TEETH] :], shape, rest_starts, rest_rows, rest_weights)
         if frame < len(colors):
-            darken(parts, balls, lip_edge, out, colors[frame])
+            darken(parts, held, lip_edge, out, colors[frame])
+        if c[SCALE] != 1.0 or c[SCALE + 1] != 1.0 or c[SCALE + 2] != 1.0:
+            scale_all(c, parts, out, around)
         if angles != (0.0, 0.0, 0.0):
-            turn_all(parts, neck_share, angles, out, around)
+            turn_all(parts, neck_share, angles, pivot, out, around)

@@ -43,7 +43,20 @@ PLACES = (
 @cache
 def face_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source."""
-    text = files(__package__).joinpath("data/parameters.csv").read_text(encoding="utf-8")
+    return _read_rows("parameters.csv")
+
+
+@cache
+def conformation_rows() -> tuple[dict[str, str], ...]:
+    """Rows of ``data/conformation.csv``, in the order in which they act: as above, and the mechanism of each.
+
+    Instead of ``morph`` they have kind (blend, scale, move, lids, turn, field or head), axis, region and origin.
+    """
+    return _read_rows("conformation.csv")
+
+
+def _read_rows(name: str) -> tuple[dict[str, str], ...]:
+    text = files(__package__).joinpath("data", name).read_text(encoding="utf-8")
     return tuple(csv.DictReader(text.splitlines()))
 
 
@@ -54,16 +67,16 @@ def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
     Raises:
         UnknownNameError, RangeError: a value of ``own`` does not fit the table.
     """
-    table = ParameterTable((*_face(), *_places(), *_colors()))
+    table = ParameterTable((*_face(face_rows()), *_face(conformation_rows()), *_places(), *_colors()))
     if not own:
         return table
     values = Pose.neutral(table).replace(dict(own))
     return ParameterTable(tuple(replace(row, default=values[row.name]) for row in table))
 
 
-def _face() -> list[Parameter]:
+def _face(cells_of: tuple[dict[str, str], ...]) -> list[Parameter]:
     rows: list[Parameter] = []
-    for row in face_rows():
+    for row in cells_of:
         low, high, default = (float(row[key]) for key in ("low", "high", "default"))
         cells = (low, high, default, row["unit"], row["group"], row["mirror"] == "odd", row["doc"], row["source"])
         rows += both_sides(row["name"], *cells) if row["sides"] else (Parameter(row["name"], *cells),)
