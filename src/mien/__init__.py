@@ -11,7 +11,20 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .api import draw, draw_paths, face_names, load_face, make_model, perform, play, say, sheet, speak, voices
+    from .api import (
+        draw,
+        draw_paths,
+        face_names,
+        load_face,
+        make_model,
+        perform,
+        play,
+        pose_from,
+        say,
+        sheet,
+        speak,
+        voices,
+    )
     from .core import (
         Cue,
         Face,
@@ -65,6 +78,7 @@ __all__ = [
     "make_model",
     "perform",
     "play",
+    "pose_from",
     "say",
     "sheet",
     "speak",
@@ -80,6 +94,7 @@ _HOMES = {
         "make_model",
         "perform",
         "play",
+        "pose_from",
         "say",
         "sheet",
         "speak",

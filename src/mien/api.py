@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .core import Drawing, Face, Mesh, MienError, Pose, Scene, UnknownNameError, fill_rows, subdivide
+from .core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
 from .formats.notes import notes
 from .formats.performances import default_threads
 from .timeline import Layer, Rate, Timeline, Track
@@ -91,19 +91,60 @@ def find_voice(name: str | None = None) -> Voice:
     return find_voice(name)
 
 
-def make_pose(face: Face, values: Mapping[str, float] | None = None, *, presets: Iterable[str] = ()) -> Pose:
-    """The pose of a face with presets, a later one over an earlier one, and values over all of them.
+def make_pose(
+    face: Face,
+    values: Mapping[str, float] | None = None,
+    *,
+    presets: Mapping[str, float] | Iterable[str] = (),
+    units: Mapping[str, float] | None = None,
+) -> Pose:
+    """The pose of a face with presets, a later one over an earlier one, action units on top, and values over all.
+
+    Args:
+        face: who.
+        values: of its parameters.
+        presets: names, or names with how much of each, 0..1: so much of the way from what lies beneath.
+        units: action units of FACS, 0..1 by name.
 
     Raises:
-        UnknownNameError: a preset or a parameter is unknown.
+        UnknownNameError: a preset, a unit or a parameter is unknown.
         RangeError: a value is not finite or out of its range.
     """
     pose = Pose.neutral(face.parameters)
-    for name in presets:
+    for name, amount in _amounts(presets).items():
         if name not in face.presets:
             raise UnknownNameError(f"preset of {face.name!r}", name, face.presets)
-        pose = pose.replace(face.presets[name].values)
+        if not 0.0 <= amount <= 1.0:
+            raise RangeError(f"preset {name!r}: {amount:g} is out of range — it goes from 0 to 1")
+        pose = pose.blend(pose.replace(face.presets[name].values), amount)
+    if units:
+        pose = pose_from("facs", units, face, pose)
     return pose.replace(values or {})
+
+
+def _amounts(presets: Mapping[str, float] | Iterable[str]) -> Mapping[str, float]:
+    return presets if isinstance(presets, Mapping) else dict.fromkeys(presets, 1.0)
+
+
+def pose_from(
+    vocabulary: str, values: Mapping[str, float], face: Face | str = DEFAULT_FACE, base: Pose | None = None
+) -> Pose:
+    """The pose of a face from values under other people's names: ``mien.pose_from("arkit", {"jawOpen": 0.4})``.
+
+    Args:
+        vocabulary: ``arkit``, ``facs``, ``vrm`` …: one of ``mien vocab``.
+        values: by its names or their aliases.
+        face: a face or its address.
+        base: what the face looks like without the values; None is neutral.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary or name.
+        RangeError: a value is out of its name's range.
+        MienError: the vocabulary has no table for this family of faces.
+    """
+    from .vocab import pose_from as make
+
+    return make(vocabulary, values, load_face(face) if isinstance(face, str) else face, base)
 
 
 def draw(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import faces, params, play, presets, render, say, voices, warmup
+from . import faces, params, play, presets, render, say, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -17,7 +17,16 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-for command in (say.say, render.render, play.play, faces.faces, params.params, presets.presets, voices.voices):
+for command in (
+    say.say,
+    render.render,
+    play.play,
+    faces.faces,
+    params.params,
+    presets.presets,
+    vocab.vocab,
+    voices.voices,
+):
     app.command()(command)
 app.command()(warmup.warmup)
 

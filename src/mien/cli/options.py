@@ -22,7 +22,17 @@ Sets = Annotated[
 ]
 Presets = Annotated[
     list[str] | None,
-    typer.Option("--preset", metavar="NAME", help="Start from a preset ('mien presets FACE'); may be repeated."),
+    typer.Option(
+        "--preset",
+        metavar="NAME[=N]",
+        help="Start from a preset ('mien presets FACE'), or 0..1 of it; may be repeated.",
+    ),
+]
+Units = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--au", metavar="N=X,…", help="Action units over presets: 12=0.8,6=0.5 or 1+2+5B ('mien vocab facs')."
+    ),
 ]
 
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]

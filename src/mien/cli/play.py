@@ -22,6 +22,7 @@ def play(
     ] = None,
     values: options.Sets = None,
     preset: options.Presets = None,
+    units: options.Units = None,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -81,7 +82,7 @@ def play(
         subdivide=subdivide,
         background=background,
     )
-    pose = api.make_pose(performance.face, settings.parse_values(values), presets=preset or ())
+    pose = settings.make_pose(performance.face, values, preset, units)
     performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))
     rate = wanted or performance.timeline.fps or DEFAULT_FPS
     if out is not None:

@@ -20,6 +20,7 @@ def render(
     out: options.Out,
     values: options.Sets = None,
     preset: options.Presets = None,
+    units: options.Units = None,
     sheet: options.Sheet = None,
     size: options.Size = None,
     view: options.View = None,
@@ -38,7 +39,8 @@ def render(
 
     \b
     mien render head --set jaw.rotation=8 -o open.png
-    mien render head --preset smile --view side --size 512 -o smile.jpg
+    mien render head --preset smile=0.6 --view side --size 512 -o smile.jpg
+    mien render head --au 12=0.8,6=0.5 -o happy.png
     mien render head --background transparent -o cutout.svg
     mien render head --sheet presets -o presets.png
     """
@@ -63,7 +65,7 @@ def render(
     )
     settings.check_threads(threads)
     subject = api.load_face(face)
-    pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
+    pose = settings.make_pose(subject, values, preset, units)
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
         stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")

@@ -32,6 +32,7 @@ def say(
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of blinks, small movements and brows.")] = 0,
     values: options.Sets = None,
     preset: options.Presets = None,
+    units: options.Units = None,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -81,7 +82,7 @@ def say(
     # Everything that can be wrong is looked at before the first long step.
     kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     subject = api.load_face(face)
-    pose = api.make_pose(subject, settings.parse_values(values), presets=preset or ())
+    pose = settings.make_pose(subject, values, preset, units)
     api.find_voice(voice)
     if emotion is not None:
         check_emotion(subject, emotion)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from mien.core import MienError, RangeError, Scene, UnknownNameError, exact
+from mien.core import Face, MienError, Pose, RangeError, Scene, UnknownNameError, exact
 from mien.core.scene import VIEWS, Rgba, Vector
 from mien.formats.rates import check_rate
 from mien.timeline import Rate
@@ -29,6 +29,34 @@ def parse_values(texts: Sequence[str] | None) -> dict[str, float]:
             raise MienError(f"--set {text}: want NAME=VALUE, as in --set jaw.rotation=8")
         values[name.strip()] = _number(number, f"--set {text}")
     return values
+
+
+def parse_presets(texts: Sequence[str] | None) -> dict[str, float]:
+    """How much of each preset, from texts such as ``smile`` or ``smile=0.6``.
+
+    Raises:
+        MienError: a text is not of that form.
+    """
+    amounts = {}
+    for text in texts or ():
+        name, equals, number = text.partition("=")
+        amounts[name.strip()] = _number(number, f"--preset {text}") if equals else 1.0
+    return amounts
+
+
+def make_pose(
+    face: Face, values: Sequence[str] | None, presets: Sequence[str] | None, units: Sequence[str] | None
+) -> Pose:
+    """The pose of a face that ``--preset``, ``--au`` and ``--set`` ask for, in this order.
+
+    Raises:
+        MienError: one of them cannot be understood, is unknown or out of range.
+    """
+    from mien import api
+    from mien.vocab.facs import parse_units
+
+    given = {name: amount for text in units or () for name, amount in parse_units(text, f"--au {text}").items()}
+    return api.make_pose(face, parse_values(values), presets=parse_presets(presets), units=given)
 
 
 def parse_size(text: str) -> tuple[int, int]:

@@ -1,0 +1,132 @@
+"""``mien vocab``: other names for what a face can do, and what a face loses of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options
+
+if TYPE_CHECKING:
+    from mien.vocab.loss import Loss
+
+COMPARED_WITH = "head"
+"""Who plays two vocabularies that are compared with one another."""
+
+
+def vocab(
+    name: Annotated[str | None, typer.Argument(metavar="NAME", help="A vocabulary, to see its names.")] = None,
+    loss: Annotated[
+        tuple[str, str] | None,
+        typer.Option("--loss", metavar="FROM TO", help="What of FROM a face, or another vocabulary, cannot say."),
+    ] = None,
+    as_json: options.Json = False,
+) -> None:
+    """List the vocabularies, the names of one, or what is lost on the way.
+
+    Loss on a face: a name is exact, near (approximated) or missing; how far it moves the point that it moves most; and
+    which other name does most nearly the same, 0 degrees apart where both do the same. Loss to another vocabulary: the
+    nearest combination of its names, and how many degrees the two displacements are apart.
+
+    \b
+    mien vocab
+    mien vocab facs
+    mien vocab --loss arkit head
+    mien vocab --loss facs arkit --json
+    """
+    if loss is not None:
+        _show_loss(*loss, as_json)
+    elif name is not None:
+        _show_names(name, as_json)
+    else:
+        _show_vocabularies(as_json)
+
+
+def _show_vocabularies(as_json: bool) -> None:
+    from mien.vocab import families, vocabularies, vocabulary
+
+    from .listing import print_json, print_table
+
+    if as_json:
+        listed = [
+            {"name": name, "doc": doc, "names": len(vocabulary(name)), "faces": families(name)}
+            for name, doc in vocabularies().items()
+        ]
+        print_json({"vocabularies": listed})
+        return
+    print_table(
+        ("vocabulary", "names", "played by", "what it is"),
+        [(name, str(len(vocabulary(name))), ", ".join(families(name)), doc) for name, doc in vocabularies().items()],
+        numbers=(1,),
+    )
+
+
+def _show_names(name: str, as_json: bool) -> None:
+    from mien.vocab import vocabulary
+
+    from .listing import print_json, print_table
+
+    table = vocabulary(name)
+    aliases: dict[str, list[str]] = {}
+    for alias, row in table.aliases.items():
+        aliases.setdefault(row, []).append(alias)
+    if as_json:
+        rows = [
+            {
+                "name": row.name,
+                "aliases": aliases.get(row.name, []),
+                "low": row.low,
+                "high": row.high,
+                "unit": row.unit,
+                "group": row.group,
+                "doc": row.doc,
+                "source": row.source,
+            }
+            for row in table
+        ]
+        print_json({"vocabulary": name, "names": rows})
+        return
+    print_table(
+        ("name", "also", "from", "to", "what is seen"),
+        [(row.name, " ".join(aliases.get(row.name, [])), f"{row.low:g}", f"{row.high:g}", row.doc) for row in table],
+        numbers=(2, 3),
+    )
+
+
+def _show_loss(name: str, to: str, as_json: bool) -> None:
+    from mien import api
+    from mien.vocab import vocabularies
+    from mien.vocab.loss import loss_on, loss_to
+
+    from .listing import print_json, print_table
+
+    over = to in vocabularies()
+    losses = loss_to(name, to, api.load_face(COMPARED_WITH)) if over else loss_on(name, api.load_face(to))
+    if as_json:
+        print_json({"from": name, "to": to, "names": [_described(loss) for loss in losses]})
+        return
+    print_table(
+        ("name", "fit", "mm", "degrees", "nearest in " + to if over else "nearest other name"),
+        [(loss.name, loss.fit, f"{loss.longest_mm:.1f}", *_compared(loss, over)) for loss in losses],
+        numbers=(2, 3),
+    )
+
+
+def _described(loss: Loss) -> dict[str, object]:
+    return {
+        "name": loss.name,
+        "fit": loss.fit,
+        "longest_mm": round(loss.longest_mm, 2),
+        "nearest": {name: round(share, 3) for name, share in loss.nearest.items()},
+        "angle_deg": round(loss.angle_deg, 1),
+    }
+
+
+def _compared(loss: Loss, shares: bool) -> Sequence[str]:
+    """Degrees, and names with their shares."""
+    if not loss.nearest:
+        return "", ""
+    names = (f"{name} {share:.2f}" if shares else name for name, share in loss.nearest.items())
+    return f"{loss.angle_deg:.1f}", " + ".join(names)
