@@ -15,11 +15,18 @@ from .measured import Archive, Floats, Measured
 from .moves import Move
 from .rest import REST_ARCH
 from .units import PARKE_UNIT_M as UNIT
-from .vectors import bind, cross, unit
+from .vectors import bind, cross, unit, unit_or_ahead
 
 HIGH = (("browOuterUp", 0.95), ("browInnerUp", 0.30))
 LOW = (("browOuterUp", -0.40),)
 INNER_END = (0.0105, 0.0235)
+
+ROWS = 4
+"""Vertices across a strip of hair, from its lower edge to the upper one."""
+
+SHAPE_M = 0.007
+PEAK, BREADTH = 0.62, 0.55
+"""How far ``eyebrow.shape`` lifts the peak of a brow over its ends; where the peak lies along it, and its breadth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,3 +116,19 @@ def place_brows(index, weight, offset, skin, normals, out):
         nx, ny, nz = bind(index, weight, normals, n)
         nx, ny, nz = unit(nx, ny, nz)
         out[n, 0], out[n, 1], out[n, 2] = x + offset[n] * nx, y + offset[n] * ny, z + offset[n] * nz
+
+
+@kernel()
+def shape_brow(thickness, shape, brow):
+    """Thicken a placed strip (B, 3) m, and bend it: ``shape`` is 0 straight, 0.5 as it rests, 1 arched."""
+    stations = len(brow) // ROWS
+    for station in range(stations):
+        first, last = station * ROWS, station * ROWS + ROWS - 1
+        x, y, z = brow[last, 0] - brow[first, 0], brow[last, 1] - brow[first, 1], brow[last, 2] - brow[first, 2]
+        up = unit_or_ahead(x, y, z)
+        off_peak = (station / (stations - 1.0) - PEAK) / BREADTH
+        lift = (shape - 0.5) * SHAPE_M * (1.0 - min(off_peak * off_peak, 1.0) - 0.5)
+        for axis in range(3):
+            middle = 0.5 * (brow[first, axis] + brow[last, axis])
+            for vertex in range(first, last + 1):
+                brow[vertex, axis] = middle + thickness * (brow[vertex, axis] - middle) + lift * up[axis]

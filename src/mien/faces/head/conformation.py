@@ -14,7 +14,7 @@ Source: Parke 1974, section 3.4 and figure 3.15; section 5.1 for what he wished 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,8 +32,8 @@ from .table import conformation_rows
 from .units import DEG, PARKE_UNIT_M
 
 AFFINE, LIDS, TURN = range(3)
-KINDS = {"scale": AFFINE, "move": AFFINE, "lids": LIDS, "turn": TURN}
-UNITS = {"Parke unit": PARKE_UNIT_M, "deg": DEG, "factor": 1.0}
+KINDS = {"scale": AFFINE, "move": AFFINE, "field": AFFINE, "lids": LIDS, "turn": TURN}
+UNITS = {"Parke unit": PARKE_UNIT_M, "deg": DEG, "factor": 1.0, "share": 1.0}
 TO_EITHER_SIDE = (("move", "x"), ("turn", "y"))
 OUTWARDS = {"move": 1.0, "turn": -1.0}
 """Sign that takes what lies on the left outwards; the right mirrors it."""
@@ -49,9 +49,9 @@ class Step:
 
     Attributes:
         parameter: its name, with its side.
-        kind: scale, move, lids or turn.
+        kind: scale, move, field, lids or turn.
         axes: which of x, y, z it changes; that of a turn.
-        region: where it acts.
+        region: where it acts, or the name of a field.
         origin: (3,) m, what stays.
         side: 1 left, -1 right, 0 both.
         sign: -1 where the right side moves against the left one.
@@ -110,12 +110,23 @@ class Shares:
     weights: Floats
 
 
-def shares_of(steps: Sequence[Step], points: Points, centres: Points) -> Shares:
+Fields = Callable[[str], Points | None]
+"""Moves (N, 3) m of a set of points for one unit of a field, by its name; None where it has none."""
+
+
+def no_fields(name: str) -> Points | None:
+    """None: points that no field moves."""
+    return None
+
+
+def shares_of(steps: Sequence[Step], points: Points, centres: Points, fields: Fields = no_fields) -> Shares:
     """The shares that resting points (N, 3) m take of steps; ``centres`` (2, 3) m are those of the eyes."""
     lids = [weigh_region(RIGID, points * (side, 1.0, 1.0)) for side in (1.0, -1.0)]
     starts, rows, weights = [0], [np.zeros(0, dtype=np.int64)], [np.zeros((0, 4))]
     for step in steps:
-        entry = _entries(step, points, centres, lids)
+        entry = _entries(step, points, centres, lids) if step.kind != "field" else np.zeros((len(points), 4))
+        if step.kind == "field" and (field := fields(step.region)) is not None:
+            entry[:, 1:] = field
         near = np.flatnonzero(entry.any(axis=1))
         rows.append(near)
         weights.append(entry[near])
@@ -129,10 +140,10 @@ class Shaper:
     Args:
         table: the head's parameters.
         centres: (2, 3) m of the eyes.
-        points: sets of resting points (N, 3) m, each of which gets shares of its own.
+        points: sets of resting points (N, 3) m, each of which gets shares of its own, with the fields of each.
     """
 
-    def __init__(self, table: ParameterTable, centres: Points, points: tuple[Points, ...]) -> None:
+    def __init__(self, table: ParameterTable, centres: Points, points: Sequence[tuple[Points, Fields]]) -> None:
         self._steps, self._centres, self._points = shape_steps(centres), centres, points
         self._columns = np.array([table.index[step.parameter] for step in self._steps], dtype=np.int64)
         self._rules = np.array([(step.rest, step.gain) for step in self._steps])
@@ -152,7 +163,7 @@ class Shaper:
         kinds = np.array([KINDS[step.kind] for step in steps], dtype=np.int64)
         axes = np.array([[float(axis in step.axes) for axis in "xyz"] for step in steps]).reshape(-1, 3)
         origins = np.array([step.origin for step in steps]).reshape(-1, 3)
-        shares = [shares_of(steps, points, self._centres) for points in self._points]
+        shares = [shares_of(steps, points, self._centres, fields) for points, fields in self._points]
         return kinds, axes, origins, *(array for each in shares for array in (each.starts, each.rows, each.weights))
 
 

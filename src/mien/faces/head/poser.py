@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from mien.core.sparse import SparseMatrix
 
 from . import posing
 from .brows import BrowRegions, BrowStrips, brow_moves
-from .conformation import Shaper
+from .conformation import Shaper, no_fields
 from .eyes import SPOT_SIDES, band_steps, circle
 from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
@@ -23,6 +24,7 @@ from .muscles import muscle_moves
 from .neck import PIVOT, neck_share
 from .parts import Layout
 from .rest import REST_OPENING
+from .teeth import teeth_field
 from .tongue import tip_share
 
 CHUNK = 32
@@ -97,7 +99,9 @@ class Poser:
         self._moves: Moves = moves_of(moves, table)
         centres = eyes.balls[:, :3]
         unbound = layout.join(rest)[layout.span["teeth"].start :]
-        self._shaper = Shaper(table, centres, (measured.points, unbound, np.concatenate([centres, [PIVOT]])))
+        teeth = partial(teeth_field, rest["teeth"], len(unbound))
+        held = np.concatenate([centres, [PIVOT]])
+        self._shaper = Shaper(table, centres, [(measured.points, no_fields), (unbound, teeth), (held, no_fields)])
         self._skin = np.ascontiguousarray(measured.points).ravel()
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts

@@ -15,7 +15,7 @@ import numpy as np
 
 from mien.compiling import kernel
 
-from .brows import place_brows, sum_normals
+from .brows import place_brows, shape_brow, sum_normals
 from .conformation import shape_held, shape_points
 from .eyes import fill_radii, look_at, place_eye, place_spot
 from .jaw import carry_with_jaw, chin_shift, open_jaw
@@ -37,13 +37,14 @@ SINGLE = (
 PAIRED = (
     *("mouth.corner.side", "mouth.corner.up", "mouth.corner.forward", "mouth.corner.width"),
     *("eyelid.opening", "eye.turn", "eye.nod", "iris.size", "pupil.size", "fringe.size", "spot.size"),
+    *("eyebrow.thickness", "eyebrow.shape"),
 )
 CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".right")))
 """Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
 
 JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP_UP, TIP_OUT, TURN, NOD, TILT = range(13)
 SCALE, TARGET, LIGHT, VIEWER, CORNERS = 13, 16, 19, 22, 25
-OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT = range(33, 47, 2)
+OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(33, 51, 2)
 """Columns of ``CONTROLS``; of a pair, or of a place, the first."""
 
 EYE, SPOTS, CARUNCLE, LASH, BROW, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13
@@ -147,10 +148,11 @@ def place_eyes(c, skin, gaze, parts, balls, rings, angles, pivot, radii, points,
 
 
 @kernel()
-def place_hairs(skin, parts, balls, lashes, brows, under, normals, points):
+def place_hairs(c, skin, parts, balls, lashes, brows, under, normals, points):
     """Fill the lashes and brows of ``points`` (V, 3) m.
 
     Args:
+        c: a row of controls.
         skin: (S, 3) m, posed.
         parts: first vertex of each of ``PARTS``.
         balls: (2, 4) m, centre and radius.
@@ -168,6 +170,8 @@ def place_hairs(skin, parts, balls, lashes, brows, under, normals, points):
         lash, brow = points[parts[LASH + side] :], points[parts[BROW + side] :]
         place_lashes(index[side], weight[side], reach[side], skin, balls[side], 1.0 - 2.0 * side, lash)
         place_brows(brow_index[side], brow_weight[side], offset, skin, normals, brow)
+        if c[THICKNESS + side] != 1.0 or c[BROW_SHAPE + side] != 0.5:
+            shape_brow(c[THICKNESS + side], c[BROW_SHAPE + side], brow[: len(offset)])
 
 
 @kernel()
@@ -338,7 +342,7 @@ def pose_heads(
         place_eyes(c, skin, gaze, parts, held, (steps, circle, hexagon, corners), angles, pivot, radii, out, around)
         lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
         under = quads, brow_vertices, brow_starts, brow_quads
-        place_hairs(skin, parts, held, lashes, brows, under, scratch[0], out)
+        place_hairs(c, skin, parts, held, lashes, brows, under, scratch[0], out)
         place_inside(c, parts, carried, tip_share, jaw_axis, chin, out)
         shape_points(out[parts[TEETH] :], shape, rest_starts, rest_rows, rest_weights)
         if frame < len(colors):
