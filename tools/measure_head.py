@@ -14,7 +14,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
+from measuring.directions import measure_directions
 from measuring.morphs import measure_morphs
+from measuring.people import Population
 from measuring.reference import Reference
 from measuring.skin import Skin, our_skin
 
@@ -28,8 +30,17 @@ def measure(folder: Path) -> dict[str, np.ndarray]:
     """The arrays of the file that ships, from a folder of reference heads."""
     reference = Reference(folder)
     skin = our_skin(reference.landmarks)
+    directions = measure_directions(Population(reference), skin)
     morphs = measure_morphs(reference, skin)
-    return {"morph_names": np.array(list(morphs)), **_both("morph_", list(morphs.values()), skin)}
+    return {
+        "names": np.array([each.name for each in directions]),
+        **_both("", [each.field for each in directions], skin),
+        "region": np.array([each.region for each in directions]).astype(np.float16),
+        "end_mm": np.array([each.end_mm for each in directions]).astype(np.float32),
+        "sd_mm": np.array([each.sd_mm for each in directions]).astype(np.float32),
+        "morph_names": np.array(list(morphs)),
+        **_both("morph_", list(morphs.values()), skin),
+    }
 
 
 def _both(prefix: str, fields: list[np.ndarray], skin: Skin) -> dict[str, np.ndarray]:
@@ -43,7 +54,10 @@ def _both(prefix: str, fields: list[np.ndarray], skin: Skin) -> dict[str, np.nda
 
 
 def main(folder: Path) -> None:
-    OUT.write_bytes(format_arrays(measure(folder)))
+    arrays = measure(folder)
+    OUT.write_bytes(format_arrays(arrays))
+    for name, end_mm, sd_mm in zip(arrays["names"], arrays["end_mm"], arrays["sd_mm"], strict=True):
+        print(f"{name:24} one standard deviation {sd_mm:5.2f} mm, end {end_mm:4.1f} mm: {end_mm / sd_mm:4.1f} of them")
     print(f"{OUT}: {OUT.stat().st_size / 1e3:.0f} kB")
 
 

@@ -24,20 +24,13 @@ def measure_morphs(reference: Reference, skin: Skin) -> dict[str, np.ndarray]:
     with TABLE.open(encoding="utf-8", newline="") as lines:
         for row in csv.DictReader(lines):
             field = float(row["gain"]) * sum(by_name[name] for name in row["expression"].split())
-            mask = _mask(row, skin)
+            mask = skin.region(row["path"], float(row["full_mm"]), float(row["reach_mm"]), row["still"].split())
             if row["relative"] == "yes":
                 field = skin.relative(field, mask == 0.0)
             field = skin.smoothed(field, SMOOTHING, SMOOTHING_SHARE) * mask[:, None]
             for name, moved in _sides(row["name"], row["expression"], field, skin):
                 out[name] = moved
     return out
-
-
-def _mask(row: dict[str, str], skin: Skin) -> np.ndarray:
-    mask = skin.near(row["path"], float(row["full_mm"]), float(row["end_mm"]))
-    for still in ("lids", *row["still"].split()):
-        mask = mask * skin.away_from(still)
-    return mask
 
 
 def _sides(name: str, expression: str, field: np.ndarray, skin: Skin) -> list[tuple[str, np.ndarray]]:

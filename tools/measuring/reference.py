@@ -35,6 +35,7 @@ class Source:
 
     Attributes:
         onto_skin: (S, V) weights that carry displacements of its vertices to ours.
+        points: (V, 3) m, its neutral head in our frame.
         turn: (3, 3) turns and scales its displacements into our frame.
         landmarks: name -> its vertex.
         people: (N, V, 3) m, how each person differs from its neutral head.
@@ -42,6 +43,7 @@ class Source:
     """
 
     onto_skin: sp.csr_matrix
+    points: np.ndarray
     turn: np.ndarray
     landmarks: dict[str, int]
     people: np.ndarray
@@ -50,10 +52,6 @@ class Source:
     def on_skin(self, deltas: np.ndarray) -> np.ndarray:
         """(N, S, 3) m, displacements (N, V, 3) of its vertices carried to our skin."""
         return np.stack([self.onto_skin @ delta for delta in deltas]) @ self.turn.T
-
-    def at_landmarks(self, names: tuple[str, ...]) -> np.ndarray:
-        """(N, L, 3) m, how the landmarks of its people differ from the neutral head's."""
-        return self.people[:, [self.landmarks[name] for name in names]] @ self.turn.T
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,24 +78,27 @@ class Reference:
         head = self.read("ict_head")
         skin = topology_of(head["faces"][head["face_group"] <= 1], len(self._ict_points))
         onto_skin = _onto_skin(self._ict_points, skin.triangles)
-        return Source(onto_skin, np.eye(3), self._landmark_vertices("ict"), people, ({},) * len(people))
+        return Source(
+            onto_skin, self._ict_points, np.eye(3), self._landmark_vertices("ict"), people, ({},) * len(people)
+        )
 
     @cached_property
     def models(self) -> Source:
         """MakeHuman: twenty-four people with labels of age, sex and weight."""
         head, people = self.read("mh_head"), self.read("mh_identities")
         points, numbers = head["verts"].astype(np.float64) * CM, self._landmark_vertices("mh")
-        own = points[list(numbers.values())]
+        vertices = list(numbers.values())
         wanted = np.array([self.landmarks[name] for name in numbers])
-        turn, shift = similarity(own, wanted)
+        turn, shift = similarity(points[vertices], wanted)
+        points = points @ turn.T + shift
         warp = RBFInterpolator(
-            own @ turn.T + shift, wanted, kernel="linear", degree=1, smoothing=WARP_SMOOTHING * len(own)
+            points[vertices], wanted, kernel="linear", degree=1, smoothing=WARP_SMOOTHING * len(vertices)
         )
         skin = topology_of(head["faces"][head["face_group"] == 0], len(points))
         fine, topology = refinement(skin, CRANIUM_STEPS)
-        onto_skin = _onto_skin(warp(fine @ points @ turn.T + shift), topology.triangles) @ fine
+        onto_skin = _onto_skin(warp(fine @ points), topology.triangles) @ fine
         labels = tuple(json.loads(str(people["labels"])))
-        return Source(onto_skin, turn, numbers, people["deltas"].astype(np.float64) * CM, labels)
+        return Source(onto_skin, points, turn, numbers, people["deltas"].astype(np.float64) * CM, labels)
 
     @cached_property
     def _ict_points(self) -> np.ndarray:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,8 +24,8 @@ LIMIT_STEPS = 2
 FIT_STEPS = 6
 MIDLINE_M = 0.008
 """A one-sided field fades over the midline and is nothing this far on the other side."""
-STILL_FADE_MM = {"lids": 14.0, "contact": 5.0, "corners": 14.0, "ears": 14.0}
-"""Distance from vertices that must not move over which a field fades in."""
+NOSE = re.compile(r"(n[2-6]\d|[pqruv]\d)")
+"""Vertices below the root of the nose."""
 CONTACT = ("m0", "mi", "mj", "mk")
 """Rings of the line where the lips meet, and of the inside of the mouth."""
 
@@ -72,17 +73,19 @@ class Skin:
         return {
             "lids": self.archive.ints("lid_index"),
             "contact": self.ring(*CONTACT),
+            "lips": self.ring(*CONTACT, "mh", "m1", "mb"),
+            "nose": self._left_and_right([name for name in self.archive.vertex if NOSE.fullmatch(name)]),
             "corners": self._left_and_right([f"{ring}_5" for ring in ("m0", "mh", "m1", "mb", "m2")]),
             "ears": np.unique(self.archive.quads[self.archive.groups == ears]),
         }
 
-    def near(self, path: str, full_mm: float, end_mm: float) -> np.ndarray:
+    def near(self, path: str, full_mm: float, reach_mm: float) -> np.ndarray:
         """(S,) 1 near lines through landmarks, falling smoothly to 0.
 
         Args:
             path: names joined by blanks make a line, several lines are joined by ``;``.
             full_mm: distance up to which it is 1.
-            end_mm: distance from which on it is 0.
+            reach_mm: distance from which on it is 0.
 
         Raises:
             UnknownNameError: there is no such landmark.
@@ -92,14 +95,25 @@ class Skin:
             stops = np.array([self._landmark(name) for name in line.split()])
             for start, end in zip(stops, stops[1:] if len(stops) > 1 else stops, strict=False):
                 distance = np.minimum(distance, _distance_to_segment(self.points, start, end))
-        return smooth_step((end_mm * MM - distance) / ((end_mm - full_mm) * MM))
+        return smooth_step((reach_mm * MM - distance) / ((reach_mm - full_mm) * MM))
 
-    def away_from(self, name: str) -> np.ndarray:
+    def region(self, path: str, full_mm: float, reach_mm: float, still: Sequence[str]) -> np.ndarray:
+        """(S,) 1 near lines through landmarks and their mirror images, 0 beyond their reach and on what must stay.
+
+        What must stay is written as ``lids:14``: over that distance, in mm, the region rises again.
+        """
+        out = self.near(path, full_mm, reach_mm)
+        for each in still:
+            name, _, fade_mm = each.partition(":")
+            out = out * self.away_from(name, float(fade_mm))
+        return as_stored(np.maximum(out, out[self.archive.mirror]))
+
+    def away_from(self, name: str, fade_mm: float) -> np.ndarray:
         """(S,) 0 on what must stay where it is, rising smoothly to 1."""
         if name not in self.still:
             raise UnknownNameError("set of still vertices", name, self.still)
         vertices = self.still[name]
-        out = smooth_step(cKDTree(self.points[vertices]).query(self.points)[0] / (STILL_FADE_MM[name] * MM))
+        out = smooth_step(cKDTree(self.points[vertices]).query(self.points)[0] / (fade_mm * MM))
         out[vertices] = 0.0
         return out
 
@@ -157,6 +171,11 @@ class Skin:
 def our_skin(landmarks: Mapping[str, np.ndarray]) -> Skin:
     """The skin of the head that ships."""
     return Skin(archive(), landmarks)
+
+
+def as_stored(region: np.ndarray) -> np.ndarray:
+    """A region (S,) rounded as it is stored: where it is 0 there, nothing may move."""
+    return region.astype(np.float16).astype(np.float64)
 
 
 def smooth_step(share: np.ndarray) -> np.ndarray:
