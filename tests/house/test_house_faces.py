@@ -2,9 +2,9 @@
 
 import pytest
 
-from mien.vocab import families, load_remap, load_rules, vocabularies, vocabulary
+from mien.vocab import load_remap, load_rules, targets, vocabularies, vocabulary
 from mien.vocab.rules import KINDS
-from mien.vocab.tables import shipped_tables
+from mien.vocab.tables import shipped_rows, shipped_tables
 from support import FACE_NAMES, face
 
 # What a value is counted in. A share goes from 0 to 1 or from -1 to 1.
@@ -42,28 +42,36 @@ def family(name):
     return next((face(known) for known in FACE_NAMES if face(known).family == name), None)
 
 
-REMAPS = [(name, kind) for name in vocabularies() for kind in families(name)]
+def played(target):
+    """The names that a table ends in: of a vocabulary, or of any face of a family."""
+    if target in vocabularies():
+        return vocabulary(target)
+    subject = family(target)
+    assert subject is not None, f"no installed face is of the family {target!r}"
+    return subject.parameters
 
 
-@pytest.mark.parametrize(("name", "kind"), REMAPS)
-def test_both_sets_of_names_in_a_table_exist(name, kind):
-    subject, remap = family(kind), load_remap(name, kind)
-    assert subject is not None, f"{name}.{kind}.csv: no installed face is of the family {kind!r}"
-    remap.check(vocabulary(name), subject.parameters)
+REMAPS = [(name, target) for name in vocabularies() for target in targets(name)]
+
+
+@pytest.mark.parametrize(("name", "target"), REMAPS)
+def test_both_sets_of_names_in_a_table_exist(name, target):
+    remap = load_remap(name, target)
+    remap.check(vocabulary(name), played(target))
     assert remap.from_names
     assert all(remap.sources.values())
 
 
-@pytest.mark.parametrize(("name", "kind"), [remap for remap in REMAPS if remap[0] != "channels"])
-def test_no_name_goes_past_the_end_of_a_range(name, kind):
-    table, remap = family(kind).parameters, load_remap(name, kind)
+@pytest.mark.parametrize(("name", "target"), [remap for remap in REMAPS if remap[0] != "channels"])
+def test_no_name_goes_past_the_end_of_a_range(name, target):
+    table, remap = played(target), load_remap(name, target)
     for each in remap.from_names:
-        for target, pushes in remap.pushes({each: 1.0}).items():
-            row = table[target]
-            assert row.low <= row.default + pushes[0][0] <= row.high, f"{name}.{kind}.csv: {each}, {target}"
-        for target, factor in remap.scale({each: 1.0}).items():
-            assert 0.0 <= factor <= 1.0, f"{name}.{kind}.csv: {each}, {target}"
-            assert table[target].low <= 0.0, f"{name}.{kind}.csv: {target} does not go down to 0"
+        for moved, pushes in remap.pushes({each: 1.0}).items():
+            row = table[moved]
+            assert row.low <= row.default + pushes[0][0] <= row.high, f"{name}.{target}.csv: {each}, {moved}"
+        for moved, factor in remap.scale({each: 1.0}).items():
+            assert 0.0 <= factor <= 1.0, f"{name}.{target}.csv: {each}, {moved}"
+            assert table[moved].low <= 0.0, f"{name}.{target}.csv: {moved} does not go down to 0"
 
 
 @pytest.mark.parametrize("name", vocabularies())
@@ -71,8 +79,16 @@ def test_names_of_a_vocabulary_are_described(name):
     for row in vocabulary(name):
         assert row.low <= 0.0 <= row.high, row.name
         assert row.doc[:1].isupper(), row.name
+        assert row.doc.endswith("."), row.name
         assert row.group, row.name
         assert row.source, row.name
+
+
+@pytest.mark.parametrize("name", shipped_tables())
+def test_rows_of_a_table_fill_its_columns(name):
+    for row in shipped_rows(name):
+        assert None not in row, row
+        assert None not in row.values(), row
 
 
 @pytest.mark.parametrize("name", vocabularies())
@@ -87,4 +103,4 @@ def test_rules_of_a_vocabulary_are_about_its_names(name):
 
 def test_every_table_that_ships_is_read_by_something():
     listed = {"vocabularies", *vocabularies(), *(f"{name}_rules" for name in vocabularies() if load_rules(name))}
-    assert set(shipped_tables()) == listed | {f"{name}.{kind}" for name, kind in REMAPS}
+    assert set(shipped_tables()) == listed | {f"{name}.{target}" for name, target in REMAPS}

@@ -12,7 +12,7 @@ from mien.core import Face
 from mien.core.mesh import Points
 
 from .fields import angle_deg, displacement, longest_mm
-from .remap import load_remap
+from .remap import load_remap, next_step
 from .vocabulary import vocabulary
 
 Matrix = NDArray[np.float64]
@@ -57,7 +57,7 @@ def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
         UnknownNameError: there is no such vocabulary.
         MienError: the face has no mesh, or no table for the vocabulary.
     """
-    remap, fields = load_remap(name, face.family), _fields(name, face)
+    remap, fields = load_remap(name, next_step(name, face.family)), _fields(name, face)
     names, found = tuple(fields), {}
     for each, likeness in zip(names, _likeness(fields), strict=True):
         other = names[int(likeness.argmax())]
@@ -83,6 +83,8 @@ def loss_to(name: str, other: str, face: Face) -> tuple[Loss, ...]:
 
 def _say(name: str, wish: Points, given: Mapping[str, Points]) -> Loss:
     """The loss of one name, whose field is ``wish`` (V, 3), among those of another vocabulary."""
+    if not wish.any():
+        return Loss(name, "exact", angle_deg=0.0)
     names = list(given)
     basis = np.stack([each.ravel() for each in given.values()])
     products, square = basis @ wish.ravel(), basis @ basis.T
@@ -122,7 +124,8 @@ def nearest_shares(square: Matrix, products: Matrix) -> Matrix:
 
 
 def _fields(name: str, face: Face) -> dict[str, Points]:
-    return {each: displacement(name, each, face) for each in load_remap(name, face.family).from_names}
+    names = load_remap(name, next_step(name, face.family)).from_names
+    return {each: displacement(name, each, face) for each in names}
 
 
 def _likeness(fields: Mapping[str, Points]) -> Matrix:

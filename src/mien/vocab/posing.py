@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from mien.core import Face, Parameter, Pose, UnknownNameError
 
-from .remap import load_remap
+from .remap import Remap, load_remap, next_step
 from .rules import load_rules, settle
 from .vocabulary import vocabulary
 
@@ -18,7 +18,7 @@ def pose_from(name: str, values: Mapping[str, float], face: Face, base: Pose | N
     what several names do to one parameter is combined so that it never passes the end of its range and is never cut
     off there: pushes in one direction each take their part of the way that the others leave to the end, and pushes in
     opposite directions are subtracted. A single name gives its exact value; the order of names does not matter. What
-    multiplies (a blink) does so last.
+    multiplies (a blink) does so last. A vocabulary without a table for the face goes by way of another one.
 
     Args:
         name: of the vocabulary: ``arkit``, ``facs`` …
@@ -31,14 +31,22 @@ def pose_from(name: str, values: Mapping[str, float], face: Face, base: Pose | N
         RangeError: a value is out of its name's range.
         MienError: the vocabulary has no table for this family of faces.
     """
+    base = face.neutral if base is None else base
     settled = settle(read_values(name, values), load_rules(name))
-    remap, base = load_remap(name, face.family), face.neutral if base is None else base
+    step = next_step(name, face.family)
+    if step == face.family:
+        return _move(base, load_remap(name, step), settled)
+    moved = _move(Pose.neutral(vocabulary(step)), load_remap(name, step), settled)
+    return pose_from(step, moved.changed(), face, base)
+
+
+def _move(base: Pose, remap: Remap, values: Mapping[str, float]) -> Pose:
     changes = {}
-    for target, pushes in remap.pushes(settled).items():
-        row = face.parameters[target]
-        changes[target] = combine(row, ((base[target] - row.default, 1.0), *pushes))
-    for target, factor in remap.scale(settled).items():
-        changes[target] = changes.get(target, base[target]) * factor
+    for name, pushes in remap.pushes(values).items():
+        row = base.table[name]
+        changes[name] = combine(row, ((base[name] - row.default, 1.0), *pushes))
+    for name, factor in remap.scale(values).items():
+        changes[name] = changes.get(name, base[name]) * factor
     return base.replace(changes)
 
 

@@ -156,27 +156,63 @@ def weigh(parts: list[tuple[float, Track]], rest: float = 0.0, *, name: str = ""
 
 
 @lru_cache(maxsize=32)
-def load_remap(vocabulary: str, family: str) -> Remap:
-    """The shipped remap from a vocabulary to a family of faces.
+def load_remap(vocabulary: str, target: str) -> Remap:
+    """The shipped remap from a vocabulary to a family of faces, or to another vocabulary.
 
     Raises:
         UnknownNameError: there is no such vocabulary.
         MienError: there is no table for the two.
     """
-    if vocabulary not in vocabularies():
-        raise UnknownNameError("vocabulary", vocabulary, vocabularies())
-    known = families(vocabulary)
-    if family not in known:
-        others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
-        raise MienError(f"vocabulary {vocabulary!r} cannot play faces of the family {family!r} — {others}")
-    title = f"{vocabulary}.{family}"
+    if target not in targets(vocabulary):
+        raise _no_table(vocabulary, target)
+    title = f"{vocabulary}.{target}"
     return parse_remap(shipped_text(title), title=title, place=f"{title}.csv")
 
 
-def families(vocabulary: str) -> tuple[str, ...]:
-    """Families of faces that a vocabulary can play."""
+def next_step(vocabulary: str, family: str) -> str:
+    """What the names of a vocabulary become on their way to a family of faces: the family, or another vocabulary.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+        MienError: there is no way.
+    """
+    known = targets(vocabulary)
+    if family in known:
+        return family
+    for other in known:
+        if other in vocabularies() and family in families(other):
+            return other
+    raise _no_table(vocabulary, family)
+
+
+def targets(vocabulary: str) -> tuple[str, ...]:
+    """Families of faces, and other vocabularies, that a vocabulary has a table for.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+    """
+    if vocabulary not in vocabularies():
+        raise UnknownNameError("vocabulary", vocabulary, vocabularies())
     parts = (name.split(".") for name in shipped_tables())
     return tuple(part[1] for part in parts if len(part) == 2 and part[0] == vocabulary)
+
+
+def families(vocabulary: str) -> tuple[str, ...]:
+    """Families of faces that a vocabulary can play, some of them by way of another vocabulary.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+    """
+    found = {
+        family for each in targets(vocabulary) for family in (families(each) if each in vocabularies() else (each,))
+    }
+    return tuple(sorted(found))
+
+
+def _no_table(vocabulary: str, family: str) -> MienError:
+    known = families(vocabulary)
+    others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
+    return MienError(f"vocabulary {vocabulary!r} cannot play faces of the family {family!r} — {others}")
 
 
 def parse_remap(text: str, *, title: str, place: str) -> Remap:
