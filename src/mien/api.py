@@ -28,6 +28,7 @@ SETTINGS = "settings"
 
 
 KERNELS = (
+    "mien.faces.head.carrying",
     "mien.faces.head.posing",
     "mien.formats.palette",
     "mien.formats.yuv",

@@ -14,7 +14,7 @@ Source: Parke 1974, section 3.4 and figure 3.15; section 5.1 for what he wished 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,12 +27,14 @@ from mien.core.mesh import Ints, Points
 
 from .angles import turn
 from .measured import Floats
+from .moves import Move
 from .regions import MM, weigh_region
 from .table import conformation_rows
 from .units import DEG, PARKE_UNIT_M
 
 AFFINE, LIDS, TURN = range(3)
-KINDS = {"scale": AFFINE, "move": AFFINE, "field": AFFINE, "lids": LIDS, "turn": TURN}
+KINDS = {"blend": AFFINE, "field": AFFINE, "scale": AFFINE, "move": AFFINE, "lids": LIDS, "turn": TURN}
+FIELDS = ("blend", "field")
 UNITS = {"Parke unit": PARKE_UNIT_M, "deg": DEG, "factor": 1.0, "share": 1.0}
 TO_EITHER_SIDE = (("move", "x"), ("turn", "y"))
 OUTWARDS = {"move": 1.0, "turn": -1.0}
@@ -49,7 +51,7 @@ class Step:
 
     Attributes:
         parameter: its name, with its side.
-        kind: scale, move, field, lids or turn.
+        kind: blend, field, scale, move, lids or turn.
         axes: which of x, y, z it changes; that of a turn.
         region: where it acts, or the name of a field.
         origin: (3,) m, what stays.
@@ -76,15 +78,30 @@ def shape_steps(centres: Points) -> tuple[Step, ...]:
     for row in conformation_rows():
         if row["kind"] not in KINDS:
             continue
-        rest, unit = float(row["default"]), UNITS[row["unit"]]
-        # A size in Parke's units scales by its ratio to rest.
-        gain = 1.0 / rest if row["kind"] == "scale" and row["unit"] == "Parke unit" else unit
+        rest = float(row["default"])
         for side, ending in ((1, ".left"), (-1, ".right")) if row["sides"] else ((0, ""),):
             sign = side * OUTWARDS[row["kind"]] if side and (row["kind"], row["axis"]) in TO_EITHER_SIDE else 1.0
             origin = _origin(row["origin"], side, centres)
-            cells = row["kind"], row["axis"], row["region"], origin, side, sign, rest, gain
+            region = row["name"] + ending if row["kind"] == "blend" else row["region"]
+            cells = row["kind"], row["axis"], region, origin, side, sign, rest, _gain(row)
             out.append(Step(row["name"] + ending, *cells))
     return tuple(out)
+
+
+def _gain(row: Mapping[str, str]) -> float:
+    """The step for one unit of a parameter."""
+    rest, high = float(row["default"]), float(row["high"])
+    if row["kind"] == "blend":
+        return 1.0 / (high - rest)
+    if row["kind"] == "scale" and row["unit"] == "Parke unit":
+        return 1.0 / rest  # a size in his units scales by its ratio to rest
+    return UNITS[row["unit"]]
+
+
+def blend_moves(directions: Mapping[str, Points]) -> list[Move]:
+    """Parke's interpolations of the shape as moves of the skin, from measured directions (V, 3) m by name."""
+    steps = [step for step in shape_steps(np.zeros((2, 3))) if step.kind == "blend"]
+    return [Move(step.parameter, directions[step.region], rest=step.rest, span=1.0 / step.gain) for step in steps]
 
 
 def _origin(text: str, side: int, centres: Points) -> tuple[float, float, float]:
@@ -124,8 +141,10 @@ def shares_of(steps: Sequence[Step], points: Points, centres: Points, fields: Fi
     lids = [weigh_region(RIGID, points * (side, 1.0, 1.0)) for side in (1.0, -1.0)]
     starts, rows, weights = [0], [np.zeros(0, dtype=np.int64)], [np.zeros((0, 4))]
     for step in steps:
-        entry = _entries(step, points, centres, lids) if step.kind != "field" else np.zeros((len(points), 4))
-        if step.kind == "field" and (field := fields(step.region)) is not None:
+        entry = np.zeros((len(points), 4))
+        if step.kind not in FIELDS:
+            entry = _entries(step, points, centres, lids)
+        elif (field := fields(step.region)) is not None:
             entry[:, 1:] = field
         near = np.flatnonzero(entry.any(axis=1))
         rows.append(near)

@@ -21,6 +21,7 @@ from mien.core import Mesh, MienError, ParameterTable, Pose, Preset, Rig, Topolo
 from mien.core.mesh import Points
 
 from . import brows, eyes, shades
+from .carrying import carry
 from .jaw import parke_shares
 from .lashes import lashes
 from .measured import Archive, Floats, Kind, Measured, archive
@@ -28,7 +29,7 @@ from .mouth import mouth_regions
 from .parts import Layout, lay_out
 from .poser import Eyes, Jaw, Poser
 from .presets import head_presets
-from .residual import Residual, apply_residual, carry, eyes_of
+from .residual import Residual, apply_residual, eyes_of
 from .rig import head_rig
 from .table import head_table
 from .units import DEG
@@ -141,7 +142,10 @@ class Head:
     @cached_property
     def _rest(self) -> dict[str, Points]:
         """Part -> (N, 3) m of what is not bound to the skin."""
-        return {name: carry(points, self._archive, self.residual) for name, points in self._layout.rest.items()}
+        if self.residual is None:
+            return dict(self._layout.rest)
+        skin, moves = self._archive.floats("surface"), self.residual.surface
+        return {name: points + carry(points, skin, moves) for name, points in self._layout.rest.items()}
 
     @cached_property
     def _layout(self) -> Layout:

@@ -13,7 +13,9 @@ from mien.core.sparse import SparseMatrix
 
 from . import posing
 from .brows import BrowRegions, BrowStrips, brow_moves
-from .conformation import Shaper, no_fields
+from .carrying import carry
+from .conformation import Shaper, blend_moves, no_fields
+from .directions import directions
 from .eyes import SPOT_SIDES, band_steps, circle
 from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
@@ -95,13 +97,22 @@ class Poser:
         lashes: Lashes,
     ) -> None:
         self._columns = np.array([table.index[name] for name in posing.CONTROLS], dtype=np.int64)
-        moves = [*muscle_moves(measured.morphs), *brow_moves(brows, measured), *smile_moves(measured)]
+        moves = [
+            *(*muscle_moves(measured.morphs), *brow_moves(brows, measured), *smile_moves(measured)),
+            *blend_moves(directions(measured.kind)),
+        ]
         self._moves: Moves = moves_of(moves, table)
         centres = eyes.balls[:, :3]
         unbound = layout.join(rest)[layout.span["teeth"].start :]
-        teeth = partial(teeth_field, rest["teeth"], len(unbound))
         held = np.concatenate([centres, [PIVOT]])
-        self._shaper = Shaper(table, centres, [(measured.points, no_fields), (unbound, teeth), (held, no_fields)])
+        fields = partial(
+            _unbound_field,
+            archive.floats("surface"),
+            unbound,
+            rest["teeth"],
+            layout.span["tongue"].stop - layout.span["teeth"].start,
+        )
+        self._shaper = Shaper(table, centres, [(measured.points, no_fields), (unbound, fields), (held, no_fields)])
         self._skin = np.ascontiguousarray(measured.points).ravel()
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
@@ -155,6 +166,24 @@ class Poser:
         controls = np.take(values, self._columns, axis=1)
         shape = self._shaper.steps(values)
         posing.pose_heads(controls, *self._constants, *shape, *scratch, skins, points, flat, normals, colors)
+
+
+def _unbound_field(skin: Points, unbound: Points, teeth: Points, inside: int, name: str) -> Points:
+    """(N, 3) m, the moves of what is not bound to the skin for one unit of a field.
+
+    Args:
+        skin: (S, 3) m, points on the measured surface.
+        unbound: (N, 3) m at rest: the teeth first, all else inside the mouth, then what is carried by the skin.
+        teeth: (T, 3) m.
+        inside: number of vertices inside the mouth, which no direction moves.
+        name: of the field.
+    """
+    out = np.zeros_like(unbound)
+    if name in directions("surface"):
+        out[inside:] = carry(unbound[inside:], skin, directions("surface")[name])
+    else:
+        out[: len(teeth)] = teeth_field(teeth, name)
+    return out
 
 
 def _polygons_around(quads: Ints, vertices: Ints, count: int) -> tuple[Ints, Ints, Ints]:

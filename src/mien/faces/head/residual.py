@@ -1,6 +1,6 @@
 """What a person's head has beyond the parameters: points of its own for the whole cage.
 
-Hair, collar, teeth, gums and tongue follow by inverse-distance weights; the eyes by what is around them.
+Hair, collar, teeth, gums and tongue are carried by the skin near them; the eyes by what is around them.
 """
 
 from __future__ import annotations
@@ -17,10 +17,6 @@ from mien.core.subdivision import refine
 
 from .lids_fit import fit_lids
 from .measured import Archive, Measured
-from .vectors import length
-
-NEIGHBOURS = 24
-SOFTENING_M = 0.008
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,18 +77,3 @@ def eyes_of(residual: Residual | None, archive: Archive) -> tuple[Points, float]
     if residual is None:
         return centres, radius
     return centres + np.stack([residual.eye_shift, residual.eye_shift * [-1.0, 1.0, 1.0]]), radius * residual.eye_scale
-
-
-def carry(points: Points, archive: Archive, residual: Residual | None) -> Points:
-    """Points (N, 3) m of a part that is not bound to the skin, moved with the skin near it."""
-    if residual is None or not len(points):
-        return points
-    rest = archive.floats("surface")
-    out = points.copy()
-    for number, point in enumerate(points):
-        distance = length(rest - point)
-        near = np.argsort(distance, kind="stable")[:NEIGHBOURS]
-        weight = 1.0 / (distance[near] + SOFTENING_M) ** 2
-        moves = residual.surface[near] * weight[:, None]
-        out[number] += np.add.accumulate(moves)[-1] / np.add.accumulate(weight)[-1]
-    return out

@@ -18,35 +18,25 @@ TAPER = 0.5
 """Share of its width that the edge of a crown loses at the end of the range."""
 
 
-def teeth_field(teeth: Points, count: int, name: str) -> Points | None:
-    """(count, 3) m, the move of every vertex for one unit of a field; the teeth are the first of them.
-
-    Args:
-        teeth: (T, 3) m at rest, crown by crown.
-        count: of all vertices, whose rest does not move.
-        name: length, width or taper of the teeth; None is returned for others.
-    """
-    if not name.endswith(" of the teeth"):
-        return None
+def teeth_field(teeth: Points, name: str) -> Points:
+    """(T, 3) m, the moves of teeth (T, 3) m, crown by crown, for one unit of ``length``, ``width`` or ``taper``."""
     crowns = teeth.reshape(-1, RINGS * SIDES + 1, 3)
     rings = crowns[:, :-1].reshape(len(crowns), RINGS, SIDES, 3)
     # Means as sums in order, so that no library decides a bit.
     middles = np.add.accumulate(rings, axis=2)[:, :, -1] / SIDES
     root, edge = middles[:, 0, None], middles[:, -1, None]
     along = (edge - root) / length(edge - root)[..., None]
-    if name.startswith("length"):
+    if name == "length":
         moves = _component(crowns - root, along)
     else:
         across = rings[:, :1, 2] - rings[:, :1, 0]
         across = across / length(across)[..., None]
         moves = _component(crowns - 0.5 * (root + edge), across)
-        if name.startswith("taper"):
+        if name == "taper":
             depth = (crowns - root) * along
             down = (depth[..., 0] + depth[..., 1] + depth[..., 2]) / length(edge - root)
             moves *= -2.0 * TAPER * np.clip(down, 0.0, 1.0)[..., None]
-    out = np.zeros((count, 3))
-    out[: len(teeth)] = moves.reshape(-1, 3)
-    return out
+    return moves.reshape(-1, 3)
 
 
 def _component(vectors: Points, axis: Points) -> Points:
