@@ -6,8 +6,7 @@ import numpy as np
 
 from mien.core import exact
 from mien.core.mesh import Points
-
-from .measured import Floats
+from mien.core.sparse import Floats
 
 
 def ellipse(points: Points, centre: tuple[float, float], radii: tuple[float, float], reach: float) -> Floats:

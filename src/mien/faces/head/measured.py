@@ -19,6 +19,7 @@ from mien.core import MienError, UnknownNameError
 from mien.core.mesh import Ints, Points
 
 from .arrays import parse_arrays
+from .derived import derived_morphs
 
 Floats = NDArray[np.float64]
 Scalar = TypeVar("Scalar", bound=np.generic)
@@ -91,7 +92,7 @@ class Hair:
 
 @dataclass(frozen=True, eq=False)
 class Archive:
-    """``data/head.arrays``, its arrays converted when first asked for."""
+    """A data file, its arrays converted when first asked for."""
 
     arrays: Mapping[str, NDArray[np.generic]]
 
@@ -157,8 +158,8 @@ class Archive:
     @cache  # noqa: B019 - one archive lives as long as the process
     def measured(self, kind: Kind) -> Measured:
         """One of the two position sets."""
-        names = [str(name) for name in self.arrays["morph_names"]]
-        morphs = self.floats(f"morph_{kind}")
+        points = self.floats(kind)
+        measured = self._morphs(kind) | conformation()._morphs(kind)
         lids = Lids(
             self.ints("lid_index"),
             self.floats("lid_side"),
@@ -168,18 +169,34 @@ class Archive:
         )
         return Measured(
             kind,
-            self.floats(kind),
+            points,
             self.floats(f"jaw_share_{kind}"),
             self.floats(f"jaw_residual_{kind}"),
-            dict(zip(names, morphs, strict=True)),
+            measured | derived_morphs(measured, points, self.vertex),
             lids,
         )
+
+    def _morphs(self, kind: Kind) -> dict[str, Points]:
+        """Expression -> (V, 3) m, as measured."""
+        return {
+            str(n): delta for n, delta in zip(self.arrays["morph_names"], self.floats(f"morph_{kind}"), strict=True)
+        }
 
 
 @cache
 def archive() -> Archive:
     """The data file that ships."""
-    place = files(__package__).joinpath("data/head.arrays")
+    return _read("head")
+
+
+@cache
+def conformation() -> Archive:
+    """The data file of what people have in different measure, and of expressions of another reference."""
+    return _read("conformation")
+
+
+def _read(name: str) -> Archive:
+    place = files(__package__).joinpath(f"data/{name}.arrays")
     if not place.is_file():
         raise MienError(f"{place}: the head's data is missing — was mien installed completely?")
     return Archive(parse_arrays(place.read_bytes()))

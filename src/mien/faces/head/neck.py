@@ -38,12 +38,12 @@ def turn_point(x, y, z, angles):
 
 
 @kernel()
-def turn_back(place, angles, pivot):
-    """A place in the room, m, as the turned head sees it: the inverse of ``turn_head``."""
+def turn_back(place, angles, pivot, forward):
+    """A place in the room, m, as the turned head sees it that slid ``forward`` m: the inverse of ``turn_head``."""
     turned, nodded, tilted = angles
     if turned == 0.0 and nodded == 0.0 and tilted == 0.0:
-        return place[0], place[1], place[2]
-    x, y, z = place[0] - pivot[0], place[1] - pivot[1], place[2] - pivot[2]
+        return place[0], place[1], place[2] - forward
+    x, y, z = place[0] - pivot[0], place[1] - pivot[1], place[2] - pivot[2] - forward
     z, x = turn(z, x, -turned)
     y, z = turn(y, z, nodded)
     x, y = turn(x, y, tilted)
@@ -71,8 +71,11 @@ def turn_directions(directions, axes):
 
 
 @kernel()
-def turn_head(points, share, axes, angles, pivot):
-    """Tilt, nod, then turn points (V, 3) m about the neck's ``pivot``, m, each by its share (V,) of the angles."""
+def turn_head(points, share, axes, angles, pivot, forward):
+    """Tilt, nod, then turn points (V, 3) m about the neck's ``pivot``, m, and slide them ``forward`` m.
+
+    Each goes its ``share`` (V,) of the way.
+    """
     turned, nodded, tilted = angles
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = axes
     for v in range(len(points)):
@@ -82,7 +85,8 @@ def turn_head(points, share, axes, angles, pivot):
         if share[v] >= 1.0:
             points[v, 0] = ax * x + bx * y + cx * z + pivot[0]
             points[v, 1] = ay * x + by * y + cy * z + pivot[1]
-            points[v, 2] = az * x + bz * y + cz * z + pivot[2]
+            points[v, 2] = az * x + bz * y + cz * z + pivot[2] + forward
         else:
-            x, y, z = turn_point(x, y, z, (turned * share[v], nodded * share[v], tilted * share[v]))
-            points[v, 0], points[v, 1], points[v, 2] = x + pivot[0], y + pivot[1], z + pivot[2]
+            part = share[v]
+            x, y, z = turn_point(x, y, z, (turned * part, nodded * part, tilted * part))
+            points[v, 0], points[v, 1], points[v, 2] = x + pivot[0], y + pivot[1], z + pivot[2] + part * forward

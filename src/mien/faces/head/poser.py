@@ -27,7 +27,7 @@ from .neck import PIVOT, neck_share
 from .parts import Layout
 from .rest import REST_OPENING
 from .teeth import teeth_field
-from .tongue import tip_share
+from .tongue import tongue_of
 
 CHUNK = 32
 """Poses of a batch that are worked on together: their skins fit a processor core's own cache."""
@@ -117,6 +117,8 @@ class Poser:
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
         lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
+        teeth, below = rest["teeth"], layout.lower["teeth"]
+        tongue = tongue_of(rest["tongue"], teeth[~below], teeth[below])
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
         share[layout.span["collar"]] = 0.0
@@ -132,7 +134,10 @@ class Poser:
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
             *(archive.quads, *_polygons_around(archive.quads, np.concatenate(strips.index), len(measured.points))),
-            *(np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]), tip_share(rest["tongue"]), jaw.chin),
+            *(
+                np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]),
+                *(tongue.profile, tongue.edges, jaw.chin),
+            ),
             *(archive.vertex["m0_0"], share),
         )
 

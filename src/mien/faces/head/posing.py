@@ -25,12 +25,13 @@ from .mouth import close_lips, copy_rows, move_lips, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
-from .units import DEG
+from .units import DEG, MM
 from .vectors import unit
 
 SINGLE = (
     *("jaw.rotation", "jaw.side", "jaw.forward", "mouth.width", "mouth.offset", "mouth.upper_lip", "mouth.tuck"),
-    *("mouth.closure", "tongue.raise", "tongue.out", "head.turn", "head.nod", "head.tilt"),
+    *("mouth.closure", "tongue.raise", "tongue.out", "tongue.side", "tongue.up"),
+    *("head.turn", "head.nod", "head.tilt", "head.forward"),
     *("head.scale.width", "head.scale.height", "head.scale.depth"),
     *(f"{group}.{axis}" for group in ("target", "light", "viewer") for axis in "xyz"),
 )
@@ -42,10 +43,10 @@ PAIRED = (
 CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".right")))
 """Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
 
-JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP_UP, TIP_OUT, TURN, NOD, TILT = range(13)
-SCALE, TARGET, LIGHT, VIEWER, CORNERS = 13, 16, 19, 22, 25
-OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(33, 51, 2)
-"""Columns of ``CONTROLS``; of a pair, or of a place, the first."""
+JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP = range(9)
+TURN, NOD, TILT, FORWARD, SCALE, TARGET, LIGHT, VIEWER, CORNERS = *range(12, 17), *range(19, 31, 3)
+OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(36, 54, 2)
+"""Columns of ``CONTROLS``; of a pair, of a place, or of the tongue's tip the first."""
 
 EYE, SPOTS, CARUNCLE, LASH, BROW, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13
 """Where the first vertex of each part stands in a row of part starts; of a pair, the left one."""
@@ -55,15 +56,14 @@ PARTS = (
     *("teeth", "gums", "tongue"),
 )
 
-TONGUE_SHARE = 0.82
-TONGUE_SHIFT = 0.7
-"""How far the tongue goes with the jaw's rotation, and with its sideways and forward moves."""
+RED = 3
+"""Ring of the red among ``mouth.CONTACT_RINGS``."""
 
 
 @kernel()
 def seen_from_rest(c, first, angles, pivot):
     """A place in the room, three controls from ``first`` on, as the head saw it before it was scaled and turned."""
-    x, y, z = turn_back(c[first : first + 3], angles, pivot)
+    x, y, z = turn_back(c[first : first + 3], angles, pivot, c[FORWARD] * MM)
     return x / c[SCALE], y / c[SCALE + 1], z / c[SCALE + 2]
 
 
@@ -175,25 +175,25 @@ def place_hairs(c, skin, parts, balls, lashes, brows, under, normals, points):
 
 
 @kernel()
-def place_inside(c, parts, carried, tip_share, jaw_axis, chin, points):
+def place_inside(c, parts, carried, tongue, jaw_axis, chin, lips, points):
     """Move teeth, gums and tongue of ``points`` (V, 3) m, which are at rest.
 
     Args:
         c: a row of controls.
         parts: first vertex of each of ``PARTS``.
         carried: (K,) whether a vertex, from the first of the teeth on, goes with the jaw.
-        tip_share: of ``move_tongue``.
+        tongue: profile and edges of ``move_tongue``.
         jaw_axis: (2,) m.
         chin: (3, 3) m of ``chin_shift``.
+        lips: of ``move_tongue``.
         points: changed.
     """
     first, behind, last = parts[TEETH], parts[TONGUE], parts[END]
-    x, y, z = chin_shift(c[JAW_FORWARD], c[JAW_SIDE], chin)
-    carry_with_jaw(points[first:behind], carried, c[JAW], jaw_axis, (x, y, z))
-    tongue = points[behind:last]
-    move_tongue(tongue, tip_share, c[TIP_UP], c[TIP_OUT])
-    shift = TONGUE_SHIFT * x, TONGUE_SHIFT * y, TONGUE_SHIFT * z
-    carry_with_jaw(tongue, carried[behind - first :], TONGUE_SHARE * c[JAW], jaw_axis, shift)
+    shift = chin_shift(c[JAW_FORWARD], c[JAW_SIDE], chin)
+    carry_with_jaw(points[first:behind], carried, c[JAW], jaw_axis, shift)
+    profile, edges = tongue
+    tip = c[TIP], c[TIP + 1], c[TIP + 2], c[TIP + 3]
+    move_tongue(points[behind:last], profile, edges, tip, c[JAW], jaw_axis, shift, lips)
 
 
 @kernel()
@@ -223,10 +223,13 @@ def scale_all(c, parts, points, normals):
 
 
 @kernel()
-def turn_all(parts, neck_share, angles, pivot, points, normals):
-    """Turn ``points`` (V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes."""
+def turn_all(parts, neck_share, angles, pivot, forward, points, normals):
+    """Turn ``points`` (V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes.
+
+    The head slides ``forward`` m as well.
+    """
     axes = turn_axes(angles)
-    turn_head(points, neck_share, axes, angles, pivot)
+    turn_head(points, neck_share, axes, angles, pivot, forward)
     for side in range(2):
         first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
         turn_directions(normals[first:last], axes)
@@ -269,7 +272,7 @@ def add_moves(weights, deltas, rest, skins):
     "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
     "i8[:,:,:], f8[:,:,:], f8[:], "  # brows
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
-    "b1[:], f8[:], f8[:,:], "  # inside of the mouth
+    "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
     "i8, f8[:], "  # lip's edge, neck
     "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
     "i8[:], i8[:], f8[:,:], "  # what the skin takes of them
@@ -289,7 +292,7 @@ def pose_heads(
     lash_index, lash_weight, lash_reach,
     brow_index, brow_weight, brow_offset,
     quads, brow_vertices, brow_starts, brow_quads,
-    carried, tip_share, chin,
+    carried, tongue_profile, tooth_edges, chin,
     lip_edge, neck_share,
     amounts, kinds, axes, origins,
     skin_starts, skin_rows, skin_weights,
@@ -309,7 +312,7 @@ def pose_heads(
         rest: (3 R,) m, at rest, of the vertices from the first of the teeth on.
         steps: circle, hexagon, corners: of ``place_eyes``.
         lash_index: and what follows: of ``place_hairs``.
-        carried: tip_share, chin: of ``place_inside``.
+        carried: and what follows: of ``place_inside``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
         amounts: (N, K), and what follows: of ``shape_points``, for the skin, the rest, and the balls.
@@ -332,6 +335,8 @@ def pose_heads(
         contacts = bridge, contact_numbers, contact_shares, contact_gaps
         lids = lid_numbers, lid_polar, lid_rest, rest_opening
         deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
+        upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
+        edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
         for v in range(len(source)):
             for axis in range(3):
@@ -343,11 +348,11 @@ def pose_heads(
         lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
         under = quads, brow_vertices, brow_starts, brow_quads
         place_hairs(c, skin, parts, held, lashes, brows, under, scratch[0], out)
-        place_inside(c, parts, carried, tip_share, jaw_axis, chin, out)
+        place_inside(c, parts, carried, (tongue_profile, tooth_edges), jaw_axis, chin, edges, out)
         shape_points(out[parts[TEETH] :], shape, rest_starts, rest_rows, rest_weights)
         if frame < len(colors):
             darken(parts, held, lip_edge, out, colors[frame])
         if c[SCALE] != 1.0 or c[SCALE + 1] != 1.0 or c[SCALE + 2] != 1.0:
             scale_all(c, parts, out, around)
-        if angles != (0.0, 0.0, 0.0):
-            turn_all(parts, neck_share, angles, pivot, out, around)
+        if angles != (0.0, 0.0, 0.0) or c[FORWARD] != 0.0:
+            turn_all(parts, neck_share, angles, pivot, c[FORWARD] * MM, out, around)

@@ -6,6 +6,7 @@ PARKE_UNIT_M = 0.00016
 """One of Parke's units: an eyeball of his nominal size 75 then has the anatomical radius of 12 mm."""
 
 DEG = math.pi / 180.0
+MM = 0.001
 
 PARKE_LID_RADIUS = 1.1
 """Parke's lids lie on a sphere of 1.1 eyeball radii (1974, section 3.1.2); ours follow measured radii, see the ADR."""
