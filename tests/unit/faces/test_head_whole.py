@@ -46,16 +46,16 @@ def test_nod_looks_up_and_tilt_leans_to_the_own_left(name, axis, sign):
     assert sign * moved[place, axis] > 0.01
 
 
-def turn(points, share, angles):
-    in_python(neck.turn_head)(points, share, in_python(neck.turn_axes)(angles), angles, neck.PIVOT)
+def turn(points, share, angles, forward=0.0):
+    in_python(neck.turn_head)(points, share, in_python(neck.turn_axes)(angles), angles, neck.PIVOT, forward)
     return points
 
 
 def test_turning_back_undoes_turning():
     points = np.array([[0.1, 0.2, 0.3], [-1.0, 0.0, 2.0]])
     angles = (0.5, -0.2, 0.3)
-    turned = turn(points.copy(), np.ones(2), angles)
-    back = [in_python(neck.turn_back)(point, angles, neck.PIVOT) for point in turned]
+    turned = turn(points.copy(), np.ones(2), angles, 0.02)
+    back = [in_python(neck.turn_back)(point, angles, neck.PIVOT, 0.02) for point in turned]
     np.testing.assert_allclose(back, points, atol=1e-12)
 
 
