@@ -336,7 +336,7 @@ def pose_heads(
         lids = lid_numbers, lid_polar, lid_rest, rest_opening
         deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
-        edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[red, 2]
+        edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
         for v in range(len(source)):
             for axis in range(3):

@@ -33,7 +33,7 @@ JAW_SHARE, SHIFT_SHARE = 0.82, 0.7
 BEHIND_M, TO_LIPS_M, BEYOND_M = 0.0015, 0.0085, 0.0120
 """Ways of the tip: up to the teeth, on to the lips, and out over the lower one."""
 
-GAP_M, WIDE_M = 0.0006, 0.004
+GAP_M, WIDE_M = 0.0006, 0.002
 """A gap between teeth or lips through which a tip begins to go, and how much more lets it go its full way."""
 
 CLEAR_M = 0.0005
@@ -43,7 +43,7 @@ ARCH = 50.0
 ONTO_M, OVER_M = 0.009, 0.006
 """Behind the front teeth the tongue begins to rise onto them; behind the lip it begins to lie on that."""
 
-DROOP = 40.0
+DROOP = 60.0
 BEND_IN_M, BEND_OUT_M = 0.004, 0.009
 SIDE_IN_M, SIDE_OUT_M = 0.002, 0.009
 """How far the tip bends up or down, and to a side, within the mouth, and as much more outside."""
@@ -92,7 +92,7 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
         jaw_deg: rotation of the jaw.
         axis: (2,) m, of the jaw.
         shift: of the chin, m.
-        lips: lower edge of the upper lip, upper edge of the lower one, and how far forward that is, m.
+        lips: lower edge of the upper lip, upper edge of the lower one, how far forward that is, and its red, m.
     """
     rise, out, aside, bend = tip
     sine, cosine = sin_cos(JAW_SHARE * jaw_deg * DEG)
@@ -102,7 +102,7 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
     slope = jaw_sine / jaw_cosine
     forward = way_out(out, edges[0, 0] - low_y, lips[0] - lips[1])
     led = soft_step(forward / (BEHIND_M + 0.5 * TO_LIPS_M))
-    lip_z = max(lips[2], low_z + OVER_M)
+    lip_z = max(lips[2], low_z + CLEAR_M)
     for n in range(len(points)):
         part, above, half = profile[n, 0], profile[n, 1], profile[n, 2]
         middle, z = swing(points[n, 1] - above, points[n, 2] + part * forward, axis, sine, cosine)
@@ -118,7 +118,7 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
         lip_thick = min(half, max(0.5 * (lips[0] - lips[1]) - CLEAR_M, 0.0))
         thick += onto_lip * (lip_thick - thick)
         over += onto_lip * (lips[1] + CLEAR_M + thick - over)
-        beyond = max(z - lip_z, 0.0)
+        beyond = max(z - lips[3], 0.0)
         outside = led * share((z - low_z) / (OVER_M + BEYOND_M))
         over += bend * BEND_OUT_M * outside * outside - (1.0 - share(bend)) * DROOP * beyond * beyond
         onto = led * soft_step((z + ARCH * x * x - low_z + ONTO_M) / ONTO_M)
