@@ -117,8 +117,8 @@ class Poser:
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
         lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
-        teeth, below = rest["teeth"], layout.lower["teeth"]
-        tongue = tongue_of(rest["tongue"], teeth[~below], teeth[below])
+        below = layout.lower["teeth"]
+        tongue = tongue_of(rest["tongue"], rest["teeth"][~below], rest["teeth"][below])
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
         share[layout.span["collar"]] = 0.0
