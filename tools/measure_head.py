@@ -2,8 +2,13 @@
 
     python tools/measure_head.py FOLDER
 
-FOLDER holds the reference heads, their people and landmarks. Which expressions are taken is said in
-tools/measuring/morphs.csv.
+FOLDER holds the reference heads, their people and landmarks. What is measured is said in two tables:
+
+- tools/measuring/directions.csv, a row a parameter. Its measure is a sum of landmarks' coordinates, or of labels,
+  that tells its two ends apart; the displacements of people's skin are regressed on it, ``apart`` from other measures
+  whose effects are taken off. A person from scans counts 1, an adult drawn by artists a half, a child nothing. The
+  result is taken relative to what stays, kept within the region and brought to the size of its end.
+- tools/measuring/morphs.csv, a row an expression: which of the model's expressions are added, how much, and where.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ def measure_directions(population: Population, skin: Skin) -> list[Direction]:
 
 def _measure(row: dict[str, str], population: Population, skin: Skin) -> Direction:
     region = skin.region(row["path"], float(row["full_mm"]), float(row["reach_mm"]), row["still"].split())
-    field, _ = population.direction(row["landmarks"], row["apart"].split(";") if row["apart"] else (), row["label"])
+    field = population.direction(row["landmarks"], row["apart"].split(";") if row["apart"] else (), row["label"])
     field = skin.relative(skin.symmetric(field), _still(row["relative_to"], region, skin))
     field = skin.symmetric(skin.smoothed(field, SMOOTHING, SMOOTHING_SHARE))
     if row["name"].endswith(LEFT):

@@ -94,8 +94,8 @@ class Population:
         """The adults of MakeHuman."""
         return _people(self.reference.models, WEIGHT_OF_MODELS)
 
-    def direction(self, landmarks: str, apart: Sequence[str], label: str) -> tuple[np.ndarray, float]:
-        """The field (S, 3) m that goes along with one standard deviation of a measure, and that deviation.
+    def direction(self, landmarks: str, apart: Sequence[str], label: str) -> np.ndarray:
+        """The field (S, 3) m that goes along with one standard deviation of a measure.
 
         The slope is pooled within the two sources, so that how their neutral heads differ does not matter.
 
@@ -117,8 +117,8 @@ class Population:
             parts = [(values / values.std(), fields, weight) for values, fields, weight in parts]
         along = sum(weight * np.tensordot(values, fields, 1) for values, fields, weight in parts)
         square = sum(weight * (values @ values) for values, _, weight in parts)
-        deviation = float(np.sqrt(square / sum(weight * len(values) for values, _, weight in parts)))
-        return along / square * deviation, deviation
+        deviation = np.sqrt(square / sum(weight * len(values) for values, _, weight in parts))
+        return along / square * deviation
 
 
 def align(source: Source, people: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -161,6 +161,6 @@ def _labels(labels: list[dict[str, Any]]) -> dict[str, np.ndarray]:
 
 
 def _terms(measure: str) -> list[tuple[str, str, str, str]]:
-    if TERM.sub("", measure).strip():
+    if not measure or TERM.sub("", measure).strip():
         raise MienError(f"measure {measure!r} cannot be read — want a sum such as '0.5 metopion.z - glabella.z'")
     return TERM.findall(measure)
