@@ -8,7 +8,20 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, UnknownNameError, fill_rows, subdivide
+from .core import (
+    Drawing,
+    Face,
+    Mesh,
+    MienError,
+    Pose,
+    RangeError,
+    Scene,
+    UnknownNameError,
+    fill_rows,
+    mix_people,
+    random_person,
+    subdivide,
+)
 from .formats.notes import notes
 from .formats.performances import default_threads
 from .timeline import Layer, Rate, Timeline, Track
@@ -98,6 +111,8 @@ def make_pose(
     *,
     presets: Mapping[str, float] | Iterable[str] = (),
     units: Mapping[str, float] | None = None,
+    mix: Mapping[str, float] | None = None,
+    seed: int | None = None,
 ) -> Pose:
     """The pose of a face with presets, a later one over an earlier one, action units on top, and values over all.
 
@@ -106,12 +121,16 @@ def make_pose(
         values: of its parameters.
         presets: names, or names with how much of each, 0..1: so much of the way from what lies beneath.
         units: action units of FACS, 0..1 by name.
+        mix: addresses of other people, with the share 0..1 of each in this one.
+        seed: of a person drawn by chance, in place of the face's own rest.
 
     Raises:
-        UnknownNameError: a preset, a unit or a parameter is unknown.
+        UnknownNameError: a preset, a unit, a face or a parameter is unknown.
         RangeError: a value is not finite or out of its range.
+        MienError: another person cannot be mixed in.
     """
-    pose = Pose.neutral(face.parameters)
+    pose = face.neutral if seed is None else random_person(face, seed)
+    pose = mix_people(pose, face, [(load_face(address), share) for address, share in (mix or {}).items()])
     for name, amount in _amounts(presets).items():
         if name not in face.presets:
             raise UnknownNameError(f"preset of {face.name!r}", name, face.presets)

@@ -35,6 +35,14 @@ Units = Annotated[
     ),
 ]
 
+Mix = Annotated[
+    list[str] | None,
+    typer.Option("--mix", metavar="FACE=N", help="Take 0..1 of another person, as in head:ada=0.3; may be repeated."),
+]
+Random = Annotated[
+    int | None, typer.Option("--random", metavar="SEED", help="A person drawn by chance; the same for the same seed.")
+]
+
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]
 Film = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]
 OptionalFilm = Annotated[Path | None, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]

@@ -23,6 +23,8 @@ def play(
     values: options.Sets = None,
     preset: options.Presets = None,
     units: options.Units = None,
+    mix: options.Mix = None,
+    person: options.Random = None,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -82,7 +84,7 @@ def play(
         subdivide=subdivide,
         background=background,
     )
-    pose = settings.make_pose(performance.face, values, preset, units)
+    pose = settings.make_pose(performance.face, values, preset, units, mix, person)
     performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))
     rate = wanted or performance.timeline.fps or DEFAULT_FPS
     if out is not None:

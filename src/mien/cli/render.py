@@ -21,6 +21,8 @@ def render(
     values: options.Sets = None,
     preset: options.Presets = None,
     units: options.Units = None,
+    mix: options.Mix = None,
+    person: options.Random = None,
     sheet: options.Sheet = None,
     size: options.Size = None,
     view: options.View = None,
@@ -41,6 +43,7 @@ def render(
     mien render head --set jaw.rotation=8 -o open.png
     mien render head --preset smile=0.6 --view side --size 512 -o smile.jpg
     mien render head --au 12=0.8,6=0.5 -o happy.png
+    mien render head --random 7 --mix head:ada=0.3 -o someone.png
     mien render head --background transparent -o cutout.svg
     mien render head --sheet presets -o presets.png
     """
@@ -65,7 +68,7 @@ def render(
     )
     settings.check_threads(threads)
     subject = api.load_face(face)
-    pose = settings.make_pose(subject, values, preset, units)
+    pose = settings.make_pose(subject, values, preset, units, mix, person)
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
         stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")

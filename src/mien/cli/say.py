@@ -33,6 +33,8 @@ def say(
     values: options.Sets = None,
     preset: options.Presets = None,
     units: options.Units = None,
+    mix: options.Mix = None,
+    person: options.Random = None,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -82,7 +84,7 @@ def say(
     # Everything that can be wrong is looked at before the first long step.
     kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     subject = api.load_face(face)
-    pose = settings.make_pose(subject, values, preset, units)
+    pose = settings.make_pose(subject, values, preset, units, mix, person)
     api.find_voice(voice)
     if emotion is not None:
         check_emotion(subject, emotion)

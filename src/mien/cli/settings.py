@@ -44,10 +44,30 @@ def parse_presets(texts: Sequence[str] | None) -> dict[str, float]:
     return amounts
 
 
+def parse_mix(texts: Sequence[str] | None) -> dict[str, float]:
+    """Shares of other people by address, from texts such as ``head:ada=0.3``.
+
+    Raises:
+        MienError: a text is not of that form.
+    """
+    shares = {}
+    for text in texts or ():
+        name, equals, number = text.rpartition("=")
+        if not (name and equals):
+            raise MienError(f"--mix {text}: want FACE=SHARE, as in --mix head:ada=0.3")
+        shares[name.strip()] = _number(number, f"--mix {text}")
+    return shares
+
+
 def make_pose(
-    face: Face, values: Sequence[str] | None, presets: Sequence[str] | None, units: Sequence[str] | None
+    face: Face,
+    values: Sequence[str] | None,
+    presets: Sequence[str] | None,
+    units: Sequence[str] | None,
+    mix: Sequence[str] | None = None,
+    seed: int | None = None,
 ) -> Pose:
-    """The pose of a face that ``--preset``, ``--au`` and ``--set`` ask for, in this order.
+    """The pose of a face that ``--random``, ``--mix``, ``--preset``, ``--au`` and ``--set`` ask for, in this order.
 
     Raises:
         MienError: one of them cannot be understood, is unknown or out of range.
@@ -56,7 +76,9 @@ def make_pose(
     from mien.vocab.facs import parse_units
 
     given = {name: amount for text in units or () for name, amount in parse_units(text, f"--au {text}").items()}
-    return api.make_pose(face, parse_values(values), presets=parse_presets(presets), units=given)
+    return api.make_pose(
+        face, parse_values(values), presets=parse_presets(presets), units=given, mix=parse_mix(mix), seed=seed
+    )
 
 
 def parse_size(text: str) -> tuple[int, int]:

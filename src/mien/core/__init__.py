@@ -10,6 +10,7 @@ from .rig import Joint, Motion, Rig, Rigged
 from .scene import Light, Scene, fill_rows
 from .sound import Sound
 from .subdivision import subdivide
+from .variety import mix_people, random_person
 
 __all__ = [
     "SILENCE",
@@ -40,5 +41,7 @@ __all__ = [
     "build_topology",
     "color",
     "fill_rows",
+    "mix_people",
+    "random_person",
     "subdivide",
 ]

@@ -24,6 +24,7 @@ class Parameter:
 
     Left and right are the face's own. A name that ends in ``.left`` has a twin that ends in ``.right``; the name
     without either sets both. ``odd`` marks a quantity that changes its sign in the mirror (a turn to the left).
+    ``spread`` is the standard deviation among people, 0 for what moves or what they do not differ in.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Parameter:
     odd: bool = False
     doc: str = ""
     source: str = ""
+    spread: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.low <= self.default <= self.high:
@@ -78,10 +80,11 @@ def both_sides(
     odd: bool = False,
     doc: str = "",
     source: str = "",
+    spread: float = 0.0,
 ) -> tuple[Parameter, Parameter]:
     """The rows ``name.left`` and ``name.right``; ``{side}`` in the doc becomes the side."""
     left, right = (
-        Parameter(name + side, low, high, default, unit, group, odd, doc.replace("{side}", side[1:]), source)
+        Parameter(name + side, low, high, default, unit, group, odd, doc.replace("{side}", side[1:]), source, spread)
         for side in SIDES
     )
     return left, right

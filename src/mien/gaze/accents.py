@@ -8,8 +8,7 @@ from functools import lru_cache
 from importlib import resources
 
 from mien.core import SILENCE, Cue
-
-from .chance import stream
+from mien.core.chance import stream
 
 PAUSE_S = 0.09
 PHRASE_S = 2.4

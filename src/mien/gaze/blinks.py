@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from mien.core import SILENCE, Cue
+from mien.core.chance import around, between, stream
 from mien.timeline import Track
 
-from .chance import around, between, stream
 from .curves import pulses
 
 SPEAKING_A_MINUTE = 20.0

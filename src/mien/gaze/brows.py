@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mien.core.chance import between, stream
 from mien.timeline import Track
 
 from .accents import Accent
-from .chance import between, stream
 from .curves import pulses
 
 RAISE = (0.3, 0.75)

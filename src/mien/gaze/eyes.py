@@ -8,9 +8,8 @@ from math import sqrt
 import numpy as np
 
 from mien.core import SILENCE, Cue
+from mien.core.chance import around, between, stream
 from mien.timeline import Track
-
-from .chance import around, between, stream
 
 FIXATION_S = (0.35, 1.9)
 GLANCE_S = (0.35, 0.9)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mien.core.chance import around, between, stream
 from mien.timeline import Track
 
 from .accents import Accent
-from .chance import around, between, stream
 from .curves import pulses, way
 
 SWAY_DEG = {"head_turn": 3.0, "head_nod": 1.3, "head_tilt": 2.4}

@@ -49,7 +49,19 @@ def test_a_sheet_tells_its_size_and_that_it_is_done(capsys: pytest.CaptureFixtur
     assert "drawing: " in text
 
 
+def test_a_person_drawn_by_chance_is_the_same_again_and_one_mixed_in_changes_him() -> None:
+    def render(*options: str) -> bytes:
+        assert main(["render", "head", "--size", "64", "--subdivide", "0", "-q", "-o", "a.png", *options]) == 0
+        return Path("a.png").read_bytes()
+
+    assert render("--random", "7") == render("--random", "7") != render("--random", "8")
+    assert render("--mix", "head:ada=0.5") not in (render(), render("--mix", "head:ada=0.4"))
+
+
 MISTAKES = {
+    "share without number": (["--mix", "head:ada", "-o", "a.png"], "--mix head:ada: want FACE=SHARE"),
+    "share too large": (["--mix", "head:ada=1.5", "-o", "a.png"], "together no more than 1"),
+    "mix with nobody": (["--mix", "head:adda=0.5", "-o", "a.png"], "did you mean"),
     "unknown sheet": (["--sheet", "presests", "-o", "a.png"], "unknown sheet 'presests' — did you mean 'presets'"),
     "sheet of paths": (["--sheet", "views", "-o", "a.svg"], "a sheet is made of pixels — end the name in .png or .jpg"),
     "sheet of meshes": (["--sheet", "views", "-o", "a.obj"], "a sheet is made of pixels"),

@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mien.core import Cue
+from mien.core.chance import around, between, stream
 from mien.gaze import blinks, brow_raises, find_accents, head_sway, nods, saccades
 from mien.gaze.accents import LEAST_APART_S, Accent, function_words
 from mien.gaze.blinks import CLOSE_S, OPEN_S, SHUT_S, blink_times
-from mien.gaze.chance import around, between, stream
 from mien.gaze.curves import pulses, way
 from mien.gaze.eyes import saccade_length_s
 from mien.timeline import Track
