@@ -15,6 +15,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 import mend_head
+import mend_lids
 import model_mouth
 
 from mien.faces.head.arrays import format_arrays
@@ -46,11 +47,16 @@ def twin_name(name: str) -> str:
     return name
 
 
+def symmetric_pair(deltas: np.ndarray, names: list[str], name: str, mirror: np.ndarray) -> np.ndarray:
+    """(V, 3) of an expression, averaged with the mirror image of its twin."""
+    own, other = (deltas[names.index(each)].astype(np.float64) for each in (name, twin_name(name)))
+    return 0.5 * (own + other[mirror] * np.array([-1.0, 1.0, 1.0]))
+
+
 def main(folder: Path) -> None:
     head, morphs = dict(np.load(folder / "head2.npz")), np.load(folder / "head2_expressions.npz")
     mend_head.mend(head, dict(morphs))
     mirror = head["mirror_full"]
-    flip = np.array([-1.0, 1.0, 1.0])
     for name in ("control", "control_onsurface", "jaw_residual_control", "jaw_residual_onsurface"):
         head[name] = symmetric(head[name].astype(np.float64), mirror)
     for name in ("jaw_share_control", "jaw_share_onsurface", "ambient", "region_weight_vertex"):
@@ -113,9 +119,15 @@ def main(folder: Path) -> None:
         kept = [names[i] for i in keep]
         done = np.zeros_like(deltas)
         for number, own in enumerate(kept):
-            done[number] = 0.5 * (deltas[number] + deltas[kept.index(twin_name(own))][mirror] * flip)
+            done[number] = symmetric_pair(deltas, kept, own, mirror)
         done[np.abs(done) < 2e-6] = 0.0
         out[f"morph_{name}"] = done.astype(np.float16)
+    mend_lids.shut(out)
+    for kind, name in (("control", "cage"), ("onsurface", "surface")):
+        blinks = [symmetric_pair(morphs[kind], names, f"eyeBlink_{side}", mirror) * CM for side in "LR"]
+        slides = [mend_lids.slide(out, name, blink, side) for blink, side in zip(blinks, (1, -1), strict=True)]
+        out[f"morph_{name}"] = np.concatenate([out[f"morph_{name}"], np.array(slides, dtype=np.float16)])
+    out["morph_names"] = np.array([*out["morph_names"], "lidSlide_L", "lidSlide_R"])
     OUT.mkdir(parents=True, exist_ok=True)
     path = OUT / "head.arrays"
     path.write_bytes(format_arrays({name: np.asarray(array) for name, array in out.items()}))

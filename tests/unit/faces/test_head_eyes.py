@@ -161,7 +161,7 @@ def test_opening_goes_from_shut_over_rest_to_wide():
     rest = HEAD.parameters["eyelid.opening.left"].default
     assert closing(0.0, rest) == 1.0
     assert closing(rest, rest) == 0.0
-    assert closing(1.0, rest) < 0.0
+    assert closing(1.0, rest) == 0.0
 
 
 @pytest.mark.parametrize("face", [HEAD, HEAD.unsubdivided], ids=["cage", "surface"])
@@ -224,3 +224,9 @@ def test_brow_separation_moves_the_inner_end_only():
     along = archive().floats("brow_along")
     assert moved[along == 0.0, 0].min() > 0.002
     assert np.abs(moved[along > 0.7]).max() < 0.0005
+
+
+def test_a_wide_eye_is_the_measured_one():
+    moved = HEAD.shape(REST.replace({"eyelid.opening.left": 1.0})).points - HEAD.shape(REST).points
+    wide = archive().measured("cage").morphs["eyeWide_L"]
+    np.testing.assert_allclose(moved[: len(wide)], wide, atol=1e-12)

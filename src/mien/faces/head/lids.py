@@ -17,9 +17,6 @@ from .angles import share, sin_cos
 from .measured import Floats, Lids
 from .units import DEG
 
-WIDE = 0.24
-"""How far the lids pass their rest when the eye is wide open, as a share of the way from rest to shut."""
-
 FOLLOW_DOWN, FOLLOW_UP = 0.019, 0.008
 """Share of closing a degree of gaze: the upper lid follows the eye down, less so up."""
 
@@ -53,13 +50,8 @@ def lid_table(lids: Lids) -> LidTable:
 
 @kernel()
 def closing(opening, rest):
-    """How far the lids have gone from rest (0) to shut (1) at Parke's opening; negative is wider than rest.
-
-    ``rest`` is the opening of a face at rest.
-    """
-    if opening <= rest:
-        return 1.0 - opening / rest
-    return -WIDE * (opening - rest) / (1.0 - rest)
+    """How far the lids have gone from rest (0) to shut (1) at Parke's opening; ``rest`` is that of a face at rest."""
+    return max(1.0 - opening / rest, 0.0)
 
 
 @kernel()

@@ -17,13 +17,13 @@ from .lids import on_sphere
 from .measured import LID_RINGS, Floats, Lids
 from .vectors import length
 
-MEETING = 0.70
-"""The margins meet 70 % of the way down from the upper to the lower one."""
+MEETING = 0.93
+"""The margins meet so far down from the upper to the lower one: as in the measured blink, whose lower lid hardly rises."""
 
 OVERLAP_RAD = 0.012
 """How far each margin passes the line where they meet."""
 
-SHARE_UPPER = (1.0, 1.0, 1.0, 0.66, 0.30, 0.07)
+SHARE_UPPER = (1.0, 1.0, 1.0, 0.96, 0.28, 0.05)
 SHARE_LOWER = (1.0, 1.0, 1.0, 0.60, 0.30, 0.10)
 """How far each ring goes with the margin, from the hidden inner ring to the fold."""
 

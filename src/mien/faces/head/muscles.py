@@ -12,6 +12,7 @@ from functools import cache
 from mien.core.mesh import Points
 
 from .moves import Move
+from .rest import REST_OPENING
 from .table import face_rows
 
 SIDEWAYS = (("jaw.side", "jawLeft", "jawRight"), ("mouth.side", "mouthLeft", "mouthRight"))
@@ -30,9 +31,19 @@ def muscles() -> tuple[tuple[str, str], ...]:
     return tuple(out)
 
 
+def lid_moves(morphs: Mapping[str, Points]) -> list[Move]:
+    """What the arcs of the lids lack: the measured wide eye, and the slide of shutting lids towards the nose."""
+    out = []
+    for side, letter in (("left", "L"), ("right", "R")):
+        opening = f"eyelid.opening.{side}"
+        for name, span in (("eyeWide", 1.0 - REST_OPENING), ("lidSlide", -REST_OPENING)):
+            out.append(Move(opening, morphs[f"{name}_{letter}"], rest=REST_OPENING, span=span, one_way=True))
+    return out
+
+
 def muscle_moves(morphs: Mapping[str, Points]) -> list[Move]:
-    """Every expression in table order, then what goes to either side."""
+    """Every expression in table order, then what goes to either side, then the lids."""
     out = [Move(parameter, morphs[morph]) for parameter, morph in muscles()]
     for parameter, left, right in SIDEWAYS:
         out += [Move(parameter, morphs[left], one_way=True), Move(parameter, morphs[right], span=-1.0, one_way=True)]
-    return out
+    return [*out, *lid_moves(morphs)]
