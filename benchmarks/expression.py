@@ -26,7 +26,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 from measuring.closest import bind, refinement, topology_of, vertex_normals  # noqa: E402
 from measuring.reference import CM, Reference  # noqa: E402
 
-from mien.core import Mesh, Pose  # noqa: E402
+from mien.core import Pose  # noqa: E402
 from mien.faces.head import Head  # noqa: E402
 from mien.faces.head.measured import archive  # noqa: E402
 from mien.faces.registry import load_face  # noqa: E402
@@ -115,9 +115,7 @@ class Comparison:
         return self.onto @ total * CM
 
     def _skin(self, pose: Pose) -> np.ndarray:
-        mesh = self.head.shape(pose)
-        assert isinstance(mesh, Mesh)  # noqa: S101
-        return self.refine @ mesh.points[: self.refine.shape[1]]
+        return self.refine @ self.head.shape(pose).points[: self.refine.shape[1]]
 
 
 def _nearest_names(points: np.ndarray) -> list[str]:

@@ -18,7 +18,7 @@ from .measured import LID_RINGS, Floats, Lids
 from .vectors import length
 
 MEETING = 0.93
-"""The margins meet so far down from the upper to the lower one: as in the measured blink, whose lower lid hardly rises."""
+"""The margins meet so far down from the upper to the lower one: the lower lid of the measured blink hardly rises."""
 
 OVERLAP_RAD = 0.012
 """How far each margin passes the line where they meet."""
