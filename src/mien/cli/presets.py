@@ -22,7 +22,13 @@ def presets(face: options.FaceName, as_json: options.Json = False) -> None:
             {
                 "face": subject.name,
                 "presets": [
-                    {"name": preset.name, "kind": preset.kind, "doc": preset.doc, "values": dict(preset.values)}
+                    {
+                        "name": preset.name,
+                        "kind": preset.kind,
+                        "doc": preset.doc,
+                        "source": preset.source,
+                        "values": dict(preset.values),
+                    }
                     for preset in subject.presets.values()
                 ],
             }

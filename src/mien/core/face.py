@@ -19,6 +19,7 @@ class Preset:
     kind: str
     values: Mapping[str, float] = field(default_factory=dict)
     doc: str = ""
+    source: str = ""
 
 
 @runtime_checkable
