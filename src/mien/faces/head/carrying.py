@@ -5,37 +5,71 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mien.compiling import kernel
-from mien.core.mesh import Points
+from mien.core.mesh import Ints, Points
 
-SOFTENING_M2 = 0.008 * 0.008
-"""Square of the distance below which nearer skin counts hardly more."""
+from .measured import Floats
+
+NEAREST = 12
+"""Vertices of the skin that carry a point."""
 
 
-def carry(points: Points, skin: Points, moves: Points) -> Points:
-    """(N, 3) m, the moves of points (N, 3) m beside a skin (V, 3) m whose vertices have moves (V, 3) m.
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """What carries points: the nearest vertices of the skin, each with a weight; the weights of a point add up to 1.
 
-    Each is a mean of the moves of the skin, weighted by the inverse fourth power of the distance.
-
-    Source: Shepard 1968 (inverse distance weighting).
+    Attributes:
+        index: (N, K).
+        weight: (N, K).
     """
-    out = np.empty_like(points)
-    if len(points):
-        carry_moves(np.ascontiguousarray(points), skin, np.ascontiguousarray(moves), out)
-    return out
+
+    index: Ints
+    weight: Floats
+
+    def moves(self, skin_moves: Points) -> Points:
+        """(N, 3) m, from the moves (V, 3) m of the skin."""
+        out = np.zeros((len(self.index), 3))
+        for index, weight in zip(self.index.T, self.weight.T, strict=True):
+            out += weight[:, None] * skin_moves[index]
+        return out
 
 
-@kernel("f8[:,:], f8[:,:], f8[:,:], f8[:,:]")
-def carry_moves(points, skin, moves, out):
-    """Fill ``out`` (N, 3) m with the moves (V, 3) of the skin (V, 3) near points (N, 3), all m."""
+def bind_to_skin(points: Points, skin: Points) -> Carried:
+    """What carries points (N, 3) m beside a skin (V, 3) m.
+
+    The weights fade to 0 towards the first vertex that is too far to count, so that nothing jumps between neighbours.
+
+    Source: Franke and Little (in Barnhill 1977), inverse distance weighting with local support.
+    """
+    index = np.zeros((len(points), NEAREST + 1), dtype=np.int64)
+    square = np.zeros((len(points), NEAREST + 1))
+    find_nearest(np.ascontiguousarray(points), np.ascontiguousarray(skin), index, square)
+    distance = np.sqrt(np.maximum(square, 1e-12))
+    reach = distance[:, -1:]
+    near = ((reach - distance[:, :-1]) / (reach * distance[:, :-1])) ** 2
+    total = np.add.accumulate(near, axis=1)[:, -1:]
+    return Carried(index[:, :-1], near / total)
+
+
+@kernel("f8[:,:], f8[:,:], i8[:,:], f8[:,:]")
+def find_nearest(points, skin, index, square):
+    """Fill ``index`` (N, K) with the nearest vertices of a skin (V, 3) to points (N, 3), and ``square`` (N, K), m2."""
+    count = index.shape[1]
     for n in range(len(points)):
-        x, y, z, total = 0.0, 0.0, 0.0, 0.0
+        found = 0
         for v in range(len(skin)):
             dx, dy, dz = skin[v, 0] - points[n, 0], skin[v, 1] - points[n, 1], skin[v, 2] - points[n, 2]
-            near = 1.0 / (dx * dx + dy * dy + dz * dz + SOFTENING_M2)
-            weight = near * near
-            total += weight
-            x, y, z = x + weight * moves[v, 0], y + weight * moves[v, 1], z + weight * moves[v, 2]
-        out[n, 0], out[n, 1], out[n, 2] = x / total, y / total, z / total
+            away = dx * dx + dy * dy + dz * dz
+            if found == count and away >= square[n, count - 1]:
+                continue
+            if found < count:
+                found += 1
+            place = found - 1
+            while place > 0 and square[n, place - 1] > away:
+                square[n, place], index[n, place] = square[n, place - 1], index[n, place - 1]
+                place -= 1
+            square[n, place], index[n, place] = away, v

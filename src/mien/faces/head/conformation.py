@@ -127,6 +127,11 @@ class Shares:
     weights: Floats
 
 
+Arrays = tuple[NDArray[Any], ...]
+
+REMEMBERED = 8
+"""Sets of steps, and shapes of what no expression moves, that are kept."""
+
 Fields = Callable[[str], Points | None]
 """Moves (N, 3) m of a set of points for one unit of a field, by its name; None where it has none."""
 
@@ -154,36 +159,68 @@ def shares_of(steps: Sequence[Step], points: Points, centres: Points, fields: Fi
 
 
 class Shaper:
-    """The steps of one head as ``shape_points`` takes them, made for those that a pose needs.
+    """The steps of one head as arrays, made for those that a pose needs.
 
     Args:
         table: the head's parameters.
         centres: (2, 3) m of the eyes.
-        points: sets of resting points (N, 3) m, each of which gets shares of its own, with the fields of each.
+        points: sets of resting points (N, 3) m, each of which gets shares of its own, with the fields of each. No
+            expression moves the last set.
     """
 
     def __init__(self, table: ParameterTable, centres: Points, points: Sequence[tuple[Points, Fields]]) -> None:
         self._steps, self._centres, self._points = shape_steps(centres), centres, points
         self._columns = np.array([table.index[step.parameter] for step in self._steps], dtype=np.int64)
         self._rules = np.array([(step.rest, step.gain) for step in self._steps])
-        self._made: OrderedDict[tuple[int, ...], tuple[NDArray[Any], ...]] = OrderedDict()
+        self._made: OrderedDict[tuple[int, ...], tuple[Arrays, list[Shares]]] = OrderedDict()
+        self._still: OrderedDict[bytes, Points] = OrderedDict()
 
-    def steps(self, values: Floats) -> tuple[NDArray[Any], ...]:
-        """How far the steps go in poses (N, P), as (N, K); their kinds, axes, origins; and shares of each set."""
-        amounts = (values[:, self._columns] - self._rules[:, 0]) * self._rules[:, 1]
-        taken = tuple(int(k) for k in np.flatnonzero(amounts.any(axis=0)))
+    def amounts(self, values: Floats) -> Floats:
+        """(N, K) how far each step goes in poses (N, P)."""
+        return np.asarray((values[:, self._columns] - self._rules[:, 0]) * self._rules[:, 1])
+
+    def arrays(self, amounts: Floats) -> Arrays:
+        """The steps that go somewhere as ``shape_points`` takes them.
+
+        Amounts (N, T), kinds, axes and origins; then the shares of each set but the last.
+        """
+        taken = _taken(amounts)
+        steps, shares = self._make(taken)
+        flat = (array for each in shares[:-1] for array in (each.starts, each.rows, each.weights))
+        return np.ascontiguousarray(amounts[:, list(taken)]), *steps, *flat
+
+    def still(self, amounts: Floats) -> Points:
+        """(N, 3) m, the last set as the steps of one pose (K,) leave it."""
+        key = amounts.tobytes()
+        if key not in self._still:
+            taken = _taken(amounts[None])
+            steps, shares = self._make(taken)
+            points, last = self._points[-1][0].copy(), shares[-1]
+            going = np.ascontiguousarray(amounts[list(taken)])
+            shape_still(points, going, *steps, last.starts, last.rows, last.weights)
+            _remember(self._still, key, points)
+        return self._still[key]
+
+    def _make(self, taken: tuple[int, ...]) -> tuple[Arrays, list[Shares]]:
         if taken not in self._made:
-            self._made[taken] = self._make([self._steps[k] for k in taken])
-            while len(self._made) > 8:
-                self._made.popitem(last=False)
-        return np.ascontiguousarray(amounts[:, list(taken)]), *self._made[taken]
+            steps = [self._steps[k] for k in taken]
+            kinds = np.array([KINDS[step.kind] for step in steps], dtype=np.int64)
+            axes = np.array([[float(axis in step.axes) for axis in "xyz"] for step in steps]).reshape(-1, 3)
+            origins = np.array([step.origin for step in steps]).reshape(-1, 3)
+            shares = [shares_of(steps, points, self._centres, fields) for points, fields in self._points]
+            _remember(self._made, taken, ((kinds, axes, origins), shares))
+        return self._made[taken]
 
-    def _make(self, steps: Sequence[Step]) -> tuple[NDArray[Any], ...]:
-        kinds = np.array([KINDS[step.kind] for step in steps], dtype=np.int64)
-        axes = np.array([[float(axis in step.axes) for axis in "xyz"] for step in steps]).reshape(-1, 3)
-        origins = np.array([step.origin for step in steps]).reshape(-1, 3)
-        shares = [shares_of(steps, points, self._centres, fields) for points, fields in self._points]
-        return kinds, axes, origins, *(array for each in shares for array in (each.starts, each.rows, each.weights))
+
+def _taken(amounts: Floats) -> tuple[int, ...]:
+    """Numbers of the steps that go somewhere in one of the poses (N, K)."""
+    return tuple(int(k) for k in np.flatnonzero(amounts.any(axis=0)))
+
+
+def _remember(known: OrderedDict[Any, Any], key: object, value: object) -> None:
+    known[key] = value
+    while len(known) > REMEMBERED:
+        known.popitem(last=False)
 
 
 def _entries(step: Step, points: Points, centres: Points, lids: list[Floats]) -> Floats:
@@ -194,8 +231,10 @@ def _entries(step: Step, points: Points, centres: Points, lids: list[Floats]) ->
             share, *move = _take(step, centre[None])[0]
             axes = np.array([float(axis in step.axes) for axis in "xyz"])
             whole = (share * (centre - step.origin) if step.kind == "scale" else np.zeros(3)) * axes + move
-            out[:, 1:] = out[:, 1:] * (1.0 - rigid)[:, None] + rigid[:, None] * whole
-            out[:, 0] *= 1.0 - rigid
+            near = np.flatnonzero(rigid)
+            held = rigid[near, None]
+            out[near, 1:] = out[near, 1:] * (1.0 - held) + held * whole
+            out[near, :1] *= 1.0 - held
     return out
 
 
@@ -263,3 +302,9 @@ def shape_held(balls, steps, starts, rows, weights, held):
             for entry in range(starts[k], starts[k + 1]):
                 held[rows[entry], 3] *= 1.0 + amounts[k] * weights[entry, 0]
     shape_points(held, steps, starts, rows, weights)
+
+
+@kernel("f8[:,:], f8[:], i8[:], f8[:,:], f8[:,:], i8[:], i8[:], f8[:,:]")
+def shape_still(points, amounts, kinds, axes, origins, starts, rows, weights):
+    """Change points (N, 3) m that no expression moves, as ``shape_points`` does."""
+    shape_points(points, (amounts, kinds, axes, origins), starts, rows, weights)

@@ -21,7 +21,7 @@ from mien.core import Mesh, MienError, ParameterTable, Pose, Preset, Rig, Topolo
 from mien.core.mesh import Points
 
 from . import brows, eyes, shades
-from .carrying import carry
+from .carrying import bind_to_skin
 from .jaw import parke_shares
 from .lashes import lashes
 from .measured import Archive, Floats, Kind, Measured, archive
@@ -145,7 +145,7 @@ class Head:
         if self.residual is None:
             return dict(self._layout.rest)
         skin, moves = self._archive.floats("surface"), self.residual.surface
-        return {name: points + carry(points, skin, moves) for name, points in self._layout.rest.items()}
+        return {name: points + bind_to_skin(points, skin).moves(moves) for name, points in self._layout.rest.items()}
 
     @cached_property
     def _layout(self) -> Layout:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from mien.core.sparse import SparseMatrix
 
 from . import posing
 from .brows import BrowRegions, BrowStrips, brow_moves
-from .carrying import carry
+from .carrying import Carried, bind_to_skin
 from .conformation import Shaper, blend_moves, no_fields
 from .directions import directions
 from .eyes import SPOT_SIDES, band_steps, circle
@@ -26,7 +27,7 @@ from .muscles import muscle_moves
 from .neck import PIVOT, neck_share
 from .parts import Layout
 from .rest import REST_OPENING
-from .teeth import teeth_field
+from .teeth import TEETH_FIELDS, teeth_field
 from .tongue import tongue_of
 
 CHUNK = 32
@@ -103,16 +104,19 @@ class Poser:
         ]
         self._moves: Moves = moves_of(moves, table)
         centres = eyes.balls[:, :3]
-        unbound = layout.join(rest)[layout.span["teeth"].start :]
-        held = np.concatenate([centres, [PIVOT]])
-        fields = partial(
-            _unbound_field,
-            archive.floats("surface"),
-            unbound,
-            rest["teeth"],
-            layout.span["tongue"].stop - layout.span["teeth"].start,
+        first, behind = layout.span["teeth"].start, layout.span["tongue"].stop
+        unbound = layout.join(rest)
+        self._inside, still, held = unbound[first:behind], unbound[behind:], np.concatenate([centres, [PIVOT]])
+        self._shaper = Shaper(
+            table,
+            centres,
+            [
+                (measured.points, no_fields),
+                (self._inside, partial(_teeth_field, rest["teeth"], len(self._inside))),
+                (held, no_fields),
+                (still, CarriedFields(still, archive.floats("surface"))),
+            ],
         )
-        self._shaper = Shaper(table, centres, [(measured.points, no_fields), (unbound, fields), (held, no_fields)])
         self._skin = np.ascontiguousarray(measured.points).ravel()
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
@@ -129,7 +133,7 @@ class Poser:
             *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
             *(lids.numbers, lids.polar, lids.rest, REST_OPENING),
-            *(layout.skin, unbound.ravel()),
+            layout.skin,
             *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
@@ -167,28 +171,41 @@ class Poser:
         skins = skins.reshape(count, -1, 3)
         size = skins.shape[1]
         scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)), np.empty((3, 4)))
-        flat = points.reshape(count, -1)
-        controls = np.take(values, self._columns, axis=1)
-        shape = self._shaper.steps(values)
-        posing.pose_heads(controls, *self._constants, *shape, *scratch, skins, points, flat, normals, colors)
+        flat, controls = points.reshape(count, -1), np.take(values, self._columns, axis=1)
+        amounts = self._shaper.amounts(values)
+        # A shape seldom changes from one pose to the next, so what only the shape moves is made once for each.
+        changes = np.flatnonzero((amounts[1:] != amounts[:-1]).any(axis=1)) + 1
+        for first, last in pairwise([0, *changes.tolist(), count]):
+            run = slice(first, last)
+            rest = np.concatenate([self._inside, self._shaper.still(amounts[first])]).ravel()
+            shape = self._shaper.arrays(amounts[run])
+            filled = skins[run], points[run], flat[run], normals, colors[run]
+            posing.pose_heads(controls[run], *self._constants, rest, *shape, *scratch, *filled)
 
 
-def _unbound_field(skin: Points, unbound: Points, teeth: Points, inside: int, name: str) -> Points:
-    """(N, 3) m, the moves of what is not bound to the skin for one unit of a field.
-
-    Args:
-        skin: (S, 3) m, points on the measured surface.
-        unbound: (N, 3) m at rest: the teeth first, all else inside the mouth, then what is carried by the skin.
-        teeth: (T, 3) m.
-        inside: number of vertices inside the mouth, which no direction moves.
-        name: of the field.
-    """
-    out = np.zeros_like(unbound)
-    if name in directions("surface"):
-        out[inside:] = carry(unbound[inside:], skin, directions("surface")[name])
-    else:
-        out[: len(teeth)] = teeth_field(teeth, name)
+def _teeth_field(teeth: Points, count: int, name: str) -> Points | None:
+    """(count, 3) m, the moves of what is inside the mouth for one unit of a field; the teeth (T, 3) m come first."""
+    if name not in TEETH_FIELDS:
+        return None
+    out = np.zeros((count, 3))
+    out[: len(teeth)] = teeth_field(teeth, name)
     return out
+
+
+class CarriedFields:
+    """Measured directions carried over to points (N, 3) m beside a skin (S, 3) m, by name."""
+
+    def __init__(self, points: Points, skin: Points) -> None:
+        self._points, self._skin = points, skin
+
+    @cached_property
+    def _carried(self) -> Carried:
+        return bind_to_skin(self._points, self._skin)
+
+    def __call__(self, name: str) -> Points | None:
+        """(N, 3) m for one unit of a direction; None where there is none of that name."""
+        known = directions("surface")
+        return self._carried.moves(known[name]) if name in known else None
 
 
 def _polygons_around(quads: Ints, vertices: Ints, count: int) -> tuple[Ints, Ints, Ints]:

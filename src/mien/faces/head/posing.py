@@ -267,16 +267,17 @@ def add_moves(weights, deltas, rest, skins):
     "f8[:], f8[:], f8, f8[:,:], "  # jaw
     "f8[:,:], i8[:,:,:], f8[:], f8[:,:], "  # contacts
     "i8[:,:], f8[:,:], f8[:,:], f8, "  # lids
-    "i8[:], f8[:], "  # skin, and what rests
+    "i8[:], "  # skin
     "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
     "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
     "i8[:,:,:], f8[:,:,:], f8[:], "  # brows
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
     "i8, f8[:], "  # lip's edge, neck
+    "f8[:], "  # what no expression moves
     "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
     "i8[:], i8[:], f8[:,:], "  # what the skin takes of them
-    "i8[:], i8[:], f8[:,:], "  # what the rest takes of them
+    "i8[:], i8[:], f8[:,:], "  # what the inside of the mouth takes of them
     "i8[:], i8[:], f8[:,:], "  # what is held takes of them
     "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], f8[:,:], "  # scratch
     "f8[:,:,:], f8[:,:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
@@ -287,16 +288,17 @@ def pose_heads(
     jaw_axis, jaw_share, open_angle_deg, jaw_residual,
     bridge, contact_numbers, contact_shares, contact_gaps,
     lid_numbers, lid_polar, lid_rest, rest_opening,
-    source, rest,
+    source,
     steps, circle, hexagon, corners,
     lash_index, lash_weight, lash_reach,
     brow_index, brow_weight, brow_offset,
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tongue_profile, tooth_edges, chin,
     lip_edge, neck_share,
+    rest,
     amounts, kinds, axes, origins,
     skin_starts, skin_rows, skin_weights,
-    rest_starts, rest_rows, rest_weights,
+    inside_starts, inside_rows, inside_weights,
     held_starts, held_rows, held_weights,
     gaze, radii, scratch, waves, held,
     skins, points, flat, normals, colors,
@@ -309,13 +311,13 @@ def pose_heads(
         balls: (3, 4) m, centre and radius of the eyes, and the neck's pivot; kappa_deg: of ``aim_eyes``.
         lips: lip_regions, tuck_share, jaw, contacts, lids: of ``deform_skin``.
         source: (K,) vertex of the skin of each of the first K vertices.
-        rest: (3 R,) m, at rest, of the vertices from the first of the teeth on.
         steps: circle, hexagon, corners: of ``place_eyes``.
         lash_index: and what follows: of ``place_hairs``.
         carried: and what follows: of ``place_inside``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
-        amounts: (N, K), and what follows: of ``shape_points``, for the skin, the rest, and the balls.
+        rest: (3 R,) m, of the vertices from the first of the teeth on: at rest inside the mouth, shaped beyond it.
+        amounts: (N, K), and what follows: of ``shape_points``, for the skin, the inside of the mouth, and the balls.
         gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S), held (3, 4): overwritten.
         skins: (N, S, 3) m with their moves; changed.
         points: (N, V, 3) m, filled.
@@ -349,7 +351,7 @@ def pose_heads(
         under = quads, brow_vertices, brow_starts, brow_quads
         place_hairs(c, skin, parts, held, lashes, brows, under, scratch[0], out)
         place_inside(c, parts, carried, (tongue_profile, tooth_edges), jaw_axis, chin, edges, out)
-        shape_points(out[parts[TEETH] :], shape, rest_starts, rest_rows, rest_weights)
+        shape_points(out[parts[TEETH] : parts[END]], shape, inside_starts, inside_rows, inside_weights)
         if frame < len(colors):
             darken(parts, held, lip_edge, out, colors[frame])
         if c[SCALE] != 1.0 or c[SCALE + 1] != 1.0 or c[SCALE + 2] != 1.0:

@@ -35,10 +35,13 @@ def region_rows() -> Mapping[str, tuple[tuple[str, str, tuple[float, ...]], ...]
 
 def weigh_region(name: str, points: Points) -> Floats:
     """(N,) 0..1, how much points (N, 3) m belong to a region on the left or on the midline."""
-    weight = np.ones(len(points))
+    near, weight = np.arange(len(points)), np.ones(len(points))
     for shape, axis, numbers in region_rows()[name]:
-        weight *= FORMS[shape](points * MM, axis, *numbers)
-    return weight
+        weight *= FORMS[shape](points[near] * MM, axis, *numbers)
+        near, weight = near[weight != 0.0], weight[weight != 0.0]
+    out = np.zeros(len(points))
+    out[near] = weight
+    return out
 
 
 def _ramp(points: Points, axis: str, start: float, end: float) -> Floats:

@@ -11,6 +11,8 @@ from mien.core.mesh import Points
 
 from .vectors import length
 
+TEETH_FIELDS = ("length", "width", "taper")
+
 RINGS, SIDES = 4, 8
 """Rings of a crown from the gum to the edge, and the vertices around each; one vertex more closes the edge."""
 
@@ -19,7 +21,7 @@ TAPER = 0.5
 
 
 def teeth_field(teeth: Points, name: str) -> Points:
-    """(T, 3) m, the moves of teeth (T, 3) m, crown by crown, for one unit of ``length``, ``width`` or ``taper``."""
+    """(T, 3) m, the moves of teeth (T, 3) m, crown by crown, for one unit of one of ``TEETH_FIELDS``."""
     crowns = teeth.reshape(-1, RINGS * SIDES + 1, 3)
     rings = crowns[:, :-1].reshape(len(crowns), RINGS, SIDES, 3)
     # Means as sums in order, so that no library decides a bit.
