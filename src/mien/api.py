@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from os import PathLike, fspath
 from pathlib import Path
@@ -172,6 +172,7 @@ def draw(
     pose: Pose | Mapping[str, float] | None = None,
     scene: Scene | None = None,
     *,
+    without: Collection[str] = (),
     threads: int | None = None,
 ) -> Picture:
     """A picture of a face: it can be written, and shows itself in a notebook.
@@ -180,14 +181,22 @@ def draw(
         face: a face or its address.
         pose: a pose of it, or the values that differ from neutral.
         scene: where it is seen from, light, size; None is a slight three-quarter view.
+        without: parts to leave out, as ``hair`` or ``eye.left``.
         threads: None is one a core; the picture does not depend on it.
+
+    Raises:
+        UnknownNameError: a part to be left out is not there.
     """
     from .formats.picture import Picture
     from .render import draw as draw_pixels
+    from .render import draw_mesh
 
     face, pose = _resolve(face, pose)
-    pixels = draw_pixels(face, pose, scene or default_scene(), threads=threads or default_threads())
-    return Picture(pixels, notes(face.name))
+    scene, threads = scene or default_scene(), threads or default_threads()
+    if without:
+        mesh = _posed_mesh(face, pose, scene)
+        return Picture(draw_mesh(mesh.without(without), scene, threads=threads), notes(face.name))
+    return Picture(draw_pixels(face, pose, scene, threads=threads), notes(face.name))
 
 
 def draw_paths(
@@ -231,10 +240,7 @@ def make_model(
     from .formats.obj import Model
 
     face, pose = _resolve(face, pose)
-    shape = _posed(face, pose, scene or default_scene())
-    if isinstance(shape, Drawing):
-        raise MienError(f"{face.name}: is a flat drawing and has no mesh — write it as .svg")
-    return Model(shape, notes(face.name))
+    return Model(_posed_mesh(face, pose, scene or default_scene()), notes(face.name))
 
 
 def sheet(
@@ -368,6 +374,13 @@ def _posed(face: Face, pose: Pose, scene: Scene) -> Mesh | Drawing:
     """What a scene shows of a face: rows at rest filled from the scene, subdivided as it asks."""
     shape = (face if scene.subdivide else face.unsubdivided).shape(fill_rows(face, pose, scene))
     return shape if isinstance(shape, Drawing) else subdivide(shape, scene.subdivide)
+
+
+def _posed_mesh(face: Face, pose: Pose, scene: Scene) -> Mesh:
+    shape = _posed(face, pose, scene)
+    if isinstance(shape, Drawing):
+        raise MienError(f"{face.name}: is a flat drawing and has no mesh — write it as .svg")
+    return shape
 
 
 def with_settings(timeline: Timeline, pose: Pose) -> Timeline:

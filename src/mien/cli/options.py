@@ -81,6 +81,22 @@ Background = Annotated[
         "--background", metavar="COLOR", help="white, #336699, transparent, or bottom:top, as in navy:skyblue."
     ),
 ]
+Light = Annotated[
+    str | None,
+    typer.Option("--light", metavar="NAME", help="studio, or parke: one light, grey ground.  [default: studio]"),
+]
+Diffuse = Annotated[
+    float | None,
+    typer.Option(
+        "--diffuse", metavar="X", help="Parke's diffuse factor, 0..1: how bright shadows are.  [default: 0.3]"
+    ),
+]
+CosinePower = Annotated[
+    int | None,
+    typer.Option(
+        "--cosine-power", metavar="N", help="Parke's cosine power, 1 to 64: shade grows harder.  [default: 1]"
+    ),
+]
 Threads = Annotated[
     int | None, typer.Option("--threads", metavar="N", help="Threads that draw; the picture does not depend on it.")
 ]

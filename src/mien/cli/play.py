@@ -34,6 +34,9 @@ def play(
     shading: options.Shading = None,
     subdivide: options.Subdivide = None,
     background: options.Background = None,
+    light: options.Light = None,
+    diffuse: options.Diffuse = None,
+    cosine_power: options.CosinePower = None,
     threads: options.Threads = None,
     subtitles: options.Subtitles = None,
     variable: options.Variable = False,
@@ -83,6 +86,9 @@ def play(
         shading=shading,
         subdivide=subdivide,
         background=background,
+        light=light,
+        diffuse=diffuse,
+        cosine_power=cosine_power,
     )
     pose = settings.make_pose(performance.face, values, preset, units, mix, person)
     performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))

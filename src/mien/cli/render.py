@@ -32,6 +32,9 @@ def render(
     shading: options.Shading = None,
     subdivide: options.Subdivide = None,
     background: options.Background = None,
+    light: options.Light = None,
+    diffuse: options.Diffuse = None,
+    cosine_power: options.CosinePower = None,
     threads: options.Threads = None,
     quiet: options.Quiet = False,
 ) -> None:
@@ -45,6 +48,7 @@ def render(
     mien render head --au 12=0.8,6=0.5 -o happy.png
     mien render head --random 7 --mix head:ada=0.3 -o someone.png
     mien render head --background transparent -o cutout.svg
+    mien render head:parke1974 --light parke --diffuse 0.2 --cosine-power 2 -o plate.png
     mien render head --sheet presets -o presets.png
     """
     from mien import api
@@ -65,6 +69,9 @@ def render(
         shading=shading,
         subdivide=subdivide,
         background=background,
+        light=light,
+        diffuse=diffuse,
+        cosine_power=cosine_power,
     )
     settings.check_threads(threads)
     subject = api.load_face(face)

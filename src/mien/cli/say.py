@@ -44,6 +44,9 @@ def say(
     shading: options.Shading = None,
     subdivide: options.Subdivide = None,
     background: options.Background = None,
+    light: options.Light = None,
+    diffuse: options.Diffuse = None,
+    cosine_power: options.CosinePower = None,
     threads: options.Threads = None,
     subtitles: options.Subtitles = None,
     variable: options.Variable = False,
@@ -79,6 +82,9 @@ def say(
         shading=shading,
         subdivide=subdivide,
         background=background,
+        light=light,
+        diffuse=diffuse,
+        cosine_power=cosine_power,
     )
     settings.check_threads(threads)
     # Everything that can be wrong is looked at before the first long step.

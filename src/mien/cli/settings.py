@@ -14,6 +14,7 @@ from mien.formats.rates import check_rate
 from mien.timeline import Rate
 
 THREADS_HIGH = 256
+LIGHTS = ("studio", "parke")
 
 
 def parse_values(texts: Sequence[str] | None) -> dict[str, float]:
@@ -131,6 +132,9 @@ def make_scene(
     shading: str | None = None,
     subdivide: int | None = None,
     background: str | None = None,
+    light: str | None = None,
+    diffuse: float | None = None,
+    cosine_power: int | None = None,
 ) -> Scene:
     """The scene with what the options say; None leaves it as it is.
 
@@ -149,9 +153,23 @@ def make_scene(
         "shading": shading,
         "subdivide": subdivide,
         "background": None if background is None else parse_background(background),
+        "cosine_power": cosine_power,
     }
+    scene = replace(scene, **_lighting(light, diffuse))  # type: ignore[arg-type]
     scene = replace(scene, **{key: value for key, value in changes.items() if value is not None})  # type: ignore[arg-type]
     return scene if view is None else scene.seen(view)
+
+
+def _lighting(light: str | None, diffuse: float | None) -> dict[str, object]:
+    """The fields of a scene that a light by name decides; none without a name."""
+    if diffuse is not None and light != "parke":
+        raise MienError(f"--diffuse {diffuse:g} is of Parke's light alone — add --light parke")
+    if light is None:
+        return {}
+    if light not in LIGHTS:
+        raise UnknownNameError("light", light, LIGHTS)
+    scene = Scene() if light == "studio" else Scene.parke() if diffuse is None else Scene.parke(diffuse)
+    return {name: getattr(scene, name) for name in ("lights", "ambient", "cosine_power", "gloss", "background")}
 
 
 def check_threads(threads: int | None) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -87,6 +87,18 @@ class Topology:
         """(n,) vertex numbers of one polygon."""
         return self.corners[self.starts[number] : self.starts[number + 1]]
 
+    def keeping(self, polygons: NDArray[np.bool_]) -> Topology:
+        """The topology with some of its polygons (F,) only; a part that loses all is left out, the vertices stay."""
+        sizes = np.diff(self.starts)
+        ends = np.concatenate([[0], np.cumsum(polygons)])
+        runs = [replace(part, first=int(ends[part.first]), last=int(ends[part.last])) for part in self.parts]
+        return replace(
+            self,
+            corners=self.corners[np.repeat(polygons, sizes)],
+            starts=np.concatenate([[0], np.cumsum(sizes[polygons])]),
+            parts=tuple(run for run in runs if run.last > run.first),
+        )
+
     @cached_property
     def polygon_of_corner(self) -> Ints:
         """(C,) polygon that each corner belongs to."""
@@ -159,6 +171,23 @@ class Mesh:
     def moved(self, points: Points) -> Mesh:
         """The mesh with other points."""
         return replace(self, points=points)
+
+    def keeping(self, polygons: NDArray[np.bool_]) -> Mesh:
+        """The mesh with some of its polygons (F,) only; all its points stay."""
+        colors = self.colors[polygons] if self.colored_by_polygon else self.colors
+        return replace(self, topology=self.topology.keeping(polygons), colors=colors)
+
+    def without(self, parts: Iterable[str]) -> Mesh:
+        """The mesh with some of its parts left out.
+
+        Raises:
+            UnknownNameError: it has no such part.
+        """
+        left_out = [self.topology.part(name) for name in parts]
+        polygons = np.ones(self.topology.polygon_count, dtype=bool)
+        for part in left_out:
+            polygons[part.first : part.last] = False
+        return self.keeping(polygons)
 
     def part_vertices(self, name: str) -> Ints:
         """Sorted numbers of the vertices that a part's polygons use."""

@@ -123,7 +123,12 @@ class Scene:
         """Parke's scene: one light at the viewer's shoulder, shade = d + (1 - d) cos^p, no highlights, plain grey.
 
         Source: Parke 1974, section 3.5 (diffuse factor and cosine power).
+
+        Raises:
+            RangeError: the diffuse factor is not a share, or a field is out of range.
         """
+        if not 0.0 <= diffuse <= 1.0:
+            raise RangeError(f"diffuse factor {diffuse:g} is out of range — it goes from 0 to 1")
         rest = 1.0 - diffuse
         light = Light((0.35, 0.45, 1.2), (rest, rest, rest))
         grey: Rgba = (0.12, 0.12, 0.13, 1.0)

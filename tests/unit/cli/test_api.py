@@ -24,6 +24,14 @@ def test_draw_takes_a_face_or_its_address_and_a_pose_or_its_values(tmp_path: Pat
     assert (tmp_path / "a.png").read_bytes() == one._repr_png_()
 
 
+def test_parts_can_be_left_out_of_a_picture() -> None:
+    whole, bald = mien.draw("head:imani", scene=SCENE), mien.draw("head:imani", scene=SCENE, without=["hair"])
+    assert (whole.pixels != bald.pixels).any()
+    np.testing.assert_array_equal(bald.pixels, mien.draw("head:imani", scene=SCENE, without=["hair", "hair"]).pixels)
+    with pytest.raises(mien.UnknownNameError, match="did you mean 'hair'"):
+        mien.draw("head:imani", scene=SCENE, without=["har"])
+
+
 def test_a_pose_from_presets_and_values() -> None:
     face = mien.load_face("head")
     pose = api.make_pose(face, {"jaw.rotation": 3}, presets=["laugh"])

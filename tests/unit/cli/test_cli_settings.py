@@ -84,6 +84,21 @@ def test_a_view_stands_around_the_point_that_is_looked_at() -> None:
     assert scene.position[0] > 1.0
 
 
+def test_parkes_light_by_name_with_his_two_numbers() -> None:
+    scene = make_scene(Scene(fov_deg=20.0), light="parke", diffuse=0.1, cosine_power=4)
+    assert scene == Scene.parke(0.1, 4, fov_deg=20.0)
+    assert make_scene(Scene(), light="parke") == Scene.parke()
+    assert make_scene(Scene(), light="parke", background="white").background == ((1.0, 1.0, 1.0, 1.0),) * 2
+
+
+def test_the_light_of_a_studio_undoes_parkes() -> None:
+    assert make_scene(Scene.parke(0.2, 3, fov_deg=20.0), light="studio") == Scene(fov_deg=20.0)
+
+
+def test_a_cosine_power_is_of_any_light() -> None:
+    assert make_scene(Scene(), cosine_power=3) == Scene(cosine_power=3)
+
+
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
@@ -93,6 +108,12 @@ def test_a_view_stands_around_the_point_that_is_looked_at() -> None:
         ({"subdivide": 3}, RangeError, "0, 1 or 2"),
         ({"size": "0"}, RangeError, "1 to 16384"),
         ({"size": "99999"}, RangeError, "1 to 16384"),
+        ({"light": "park"}, UnknownNameError, "did you mean 'parke'"),
+        ({"light": "parke", "diffuse": 1.5}, RangeError, "diffuse factor 1.5 .* from 0 to 1"),
+        ({"light": "parke", "diffuse": float("nan")}, RangeError, "from 0 to 1"),
+        ({"diffuse": 0.3}, MienError, "add --light parke"),
+        ({"light": "studio", "diffuse": 0.3}, MienError, "add --light parke"),
+        ({"cosine_power": 0}, RangeError, "1 to 64"),
         ({"fov": float("nan")}, RangeError, "field of view"),
         ({"position": "nan,0,1"}, RangeError, "finite"),
         ({"position": "0,0,0", "at": "0,0,0"}, RangeError, "very point"),

@@ -100,3 +100,21 @@ def test_moving_makes_a_new_mesh(topology):
     assert (mesh.points == 0).all()
     assert (moved.points == 1).all()
     assert moved.topology is topology
+
+
+def test_a_mesh_with_some_of_its_polygons(topology):
+    colors = np.arange(9.0).reshape(3, 3) / 10.0
+    kept = mesh_of(topology, colors).keeping(np.array([False, True, True]))
+    assert [kept.topology.polygon(number).tolist() for number in range(2)] == [TRIANGLE, PENTAGON]
+    assert [(part.name, part.first, part.last) for part in kept.topology.parts] == [("skin", 0, 1), ("eye", 1, 2)]
+    np.testing.assert_array_equal(kept.colors, colors[1:])
+    assert len(kept.points) == 10
+
+
+def test_a_mesh_without_a_part(topology):
+    left = mesh_of(topology).without(["skin"])
+    assert [(part.name, part.first, part.last) for part in left.topology.parts] == [("eye", 0, 1)]
+    assert left.topology.polygon(0).tolist() == PENTAGON
+    assert len(left.colors) == 10
+    with pytest.raises(UnknownNameError, match="did you mean 'skin'"):
+        mesh_of(topology).without(["skim"])

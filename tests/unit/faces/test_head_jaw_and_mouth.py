@@ -7,7 +7,7 @@ import pytest
 
 from mien.core import Pose, Scene, subdivide
 from mien.faces import load_face
-from mien.faces.head.jaw import parke_shares, rotate_jaw
+from mien.faces.head.jaw import remake_shares, rotate_jaw
 from mien.faces.head.measured import archive
 from mien.faces.head.mouth import mouth_regions
 from mien.render import draw
@@ -45,10 +45,28 @@ def test_opening_the_mouth_lowers_the_chin_and_leaves_the_crown():
     assert np.abs(moved[vertex("m1_0")]).max() < 0.002
 
 
+def shares_at(jaw, *names):
+    share = archive().measured("cage").jaw_share[[vertex(name) for name in names]]
+    return remake_shares(share, jaw).tolist()
+
+
 def test_parkes_shares_turn_the_chin_fully_and_the_corner_by_a_third():
-    np.testing.assert_allclose(parke_shares(np.array([0.0, 0.44, 0.8, 0.93])), [0.0, 1 / 3, 1.0, 1.0])
-    corner = archive().measured("cage").jaw_share[vertex("m0_5")]
-    assert parke_shares(np.array([corner]))[0] == pytest.approx(1 / 3, abs=0.02)
+    np.testing.assert_allclose(remake_shares(np.array([0.0, 0.44, 0.8, 0.93]), "parke"), [0.0, 1 / 3, 1.0, 1.0])
+    assert shares_at("parke", "m0_5") == pytest.approx([1 / 3], abs=0.02)
+
+
+def test_parkes_first_shares_turn_all_of_the_lower_lip_fully_and_the_corner_by_a_half():
+    lower_lip = [f"{ring}_{station}" for ring in ("m0", "m1") for station in (6, 7, 8, 9)]
+    assert shares_at("untapered", *lower_lip) == [1.0] * 8
+    assert shares_at("untapered", "m0_5") == pytest.approx([0.5], abs=0.02)
+    tapered = shares_at("parke", *lower_lip[:4])
+    assert tapered == sorted(tapered)
+    assert tapered[0] < 0.9
+
+
+def test_fitted_shares_stay_as_they_are():
+    share = archive().measured("cage").jaw_share
+    np.testing.assert_array_equal(remake_shares(share, "fitted"), share)
 
 
 def test_the_lower_lip_is_tapered_towards_the_corner():

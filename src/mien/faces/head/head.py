@@ -22,7 +22,7 @@ from mien.core.mesh import Points
 
 from . import brows, eyes, shades
 from .carrying import bind_to_skin
-from .jaw import parke_shares
+from .jaw import JawKind, remake_shares
 from .lashes import lashes
 from .measured import Archive, Floats, Kind, Measured, archive
 from .mouth import mouth_regions
@@ -47,7 +47,7 @@ class Head:
         values: what this person has instead of the table's defaults (colours mostly).
         kind: cage for subdivided pictures, surface for classic ones.
         residual: points of the person's own, beyond the parameters.
-        parke_jaw: Parke's shares of the jaw's angle instead of the fitted ones with their residual.
+        jaw: fitted shares of the jaw's angle with their residual, or Parke's: with the lower lip tapered, or not yet.
         doc: who it is, in a line.
     """
 
@@ -55,7 +55,7 @@ class Head:
     hair: str = "side_part"
     values: Mapping[str, float] = field(default_factory=dict)
     kind: Kind = "cage"
-    parke_jaw: bool = False
+    jaw: JawKind = "fitted"
     doc: str = ""
     residual: Residual | None = None
     family: str = field(default="head", init=False)
@@ -156,7 +156,7 @@ class Head:
         archive, measured = self._archive, self._measured
         lift_m = SURFACE_BROW_LIFT_M if self.kind == "surface" else 0.0
         centres, radius = eyes_of(self.residual, archive)
-        kappa = 0.0 if self.parke_jaw else eyes.KAPPA_DEG
+        kappa = eyes.KAPPA_DEG if self.jaw == "fitted" else 0.0
         return Poser(
             archive,
             measured,
@@ -176,8 +176,7 @@ class Head:
         archive, measured = self._archive, self._measured
         chin = archive.vertex["k11_2"]
         moves = np.stack([measured.morphs[name][chin] for name in ("jawLeft", "jawRight", "jawForward")])
-        share, residual = measured.jaw_share, measured.jaw_residual
-        if self.parke_jaw:
-            share, residual = parke_shares(share), np.zeros_like(residual)
+        share = remake_shares(measured.jaw_share, self.jaw)
+        residual = measured.jaw_residual if self.jaw == "fitted" else np.zeros_like(measured.jaw_residual)
         open_angle_deg = float(archive.floats("jaw_open_angle")) / DEG
         return Jaw(archive.floats("jaw_axis"), share, open_angle_deg, residual, moves)

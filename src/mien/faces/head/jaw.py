@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Literal
+
 import numpy as np
 
 from mien.compiling import kernel
@@ -12,6 +15,20 @@ from mien.compiling import kernel
 from .angles import sin_cos
 from .measured import Floats
 from .units import DEG
+
+JawKind = Literal["fitted", "parke", "untapered"]
+
+SHARES: Mapping[JawKind, tuple[tuple[float, ...], tuple[float, ...]]] = {
+    "fitted": ((0.0, 1.0), (0.0, 1.0)),
+    "parke": ((0.0, 0.44, 0.80, 1.0), (0.0, 1.0 / 3.0, 1.0, 1.0)),
+    "untapered": ((0.0, 0.44, 0.60, 0.67, 1.0), (0.0, 0.5, 0.5, 1.0, 1.0)),
+}
+"""Fitted shares, and what they become: chin, corner of the mouth and lower lip.
+
+The fitted ones are 0.44 at the corner, 0.68 to 0.93 on the lower lip and 0.80 to 0.93 on the chin. Parke's chin turns
+fully and his corner by a third, the lower lip in between; at first all of the lower lip turned fully and the corner by
+a half.
+"""
 
 
 @kernel()
@@ -82,12 +99,9 @@ def chin_shift(forward, side, chin):
     return x + way * chin[row, 0], y + way * chin[row, 1], z + way * chin[row, 2]
 
 
-def parke_shares(share: Floats) -> Floats:
-    """Fitted shares remade as Parke's: the chin turns fully, the mouth corner by a third, the lower lip in between.
+def remake_shares(share: Floats, jaw: JawKind) -> Floats:
+    """Fitted shares as they are, or remade as Parke's; points of no share keep none.
 
-    The fitted shares are 0.44 at the corner and 0.80 to 0.93 on chin and middle of the lower lip; the map between
-    is piecewise linear, so points of no share keep none.
-
-    Source: Parke 1974, section 3.3 and figure 3.12 (b).
+    Source: Parke 1974, section 3.3 and figure 3.12.
     """
-    return np.interp(share, [0.0, 0.44, 0.80, 1.0], [0.0, 1.0 / 3.0, 1.0, 1.0])
+    return np.interp(share, *SHARES[jaw])

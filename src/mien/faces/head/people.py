@@ -11,13 +11,13 @@ from pathlib import Path
 from mien.core import LoadError, MienError, UnknownNameError
 
 from .head import Head
+from .jaw import SHARES
 from .measured import archive
 from .palettes import palette_presets
 from .residual import Residual, read_residual
 
 FORMAT, VERSION = "mien-face", 1
 KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc", "residual"}
-JAWS = ("fitted", "parke")
 
 
 @cache
@@ -64,11 +64,10 @@ def make_head(
     palettes = palette_presets()
     if palette not in palettes:
         raise UnknownNameError("palette", palette, palettes)
-    if jaw not in JAWS:
-        raise UnknownNameError("jaw", jaw, JAWS)
-    head = Head(
-        name, hair, {**palettes[palette].values, **values}, parke_jaw=jaw == "parke", doc=doc, residual=residual
-    )
+    if jaw not in SHARES:
+        raise UnknownNameError("jaw", jaw, SHARES)
+    kind = next(kind for kind in SHARES if kind == jaw)
+    head = Head(name, hair, {**palettes[palette].values, **values}, jaw=kind, doc=doc, residual=residual)
     _ = head.parameters
     return head
 
