@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import ast
 import importlib.util
+import re
 import sys
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+EXAMPLES = ROOT / "examples"
 ORDER = (
     "hero",
     "three_views",
@@ -27,14 +29,28 @@ ORDER = (
     "gaze",
     "people",
     "one_light",
+    "figure_1972",
+    "figure_2_4",
+    "figure_3_5",
+    "figure_3_10",
+    "figure_3_12",
+    "figure_3_14",
+    "figure_3_16",
 )
 
 
 def load(name: str):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "examples" / f"{name}.py")
+    if str(EXAMPLES) not in sys.path:
+        sys.path.insert(0, str(EXAMPLES))
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def heading(name: str) -> str:
+    """``figure_3_16`` becomes ``Figure 3.16``."""
+    return re.sub(r"(\d)_(\d)", r"\1.\2", name).replace("_", " ").capitalize()
 
 
 def picture(name: str) -> str:
@@ -51,9 +67,9 @@ def page() -> str:
         "",
     ]
     for name in ORDER:
-        doc = ast.get_docstring(ast.parse((ROOT / "examples" / f"{name}.py").read_text()))
+        doc = ast.get_docstring(ast.parse((EXAMPLES / f"{name}.py").read_text()))
         lines += [
-            f"## {name.replace('_', ' ').capitalize()}",
+            f"## {heading(name)}",
             "",
             doc,
             "",

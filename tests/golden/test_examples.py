@@ -13,6 +13,11 @@ MOST_APART = 1.0
 """Mean difference of 8-bit values that JPEG and font versions may make."""
 
 
+@pytest.fixture(autouse=True)
+def _examples_find_one_another(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "examples")
+
+
 def told(path):
     line = next(line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("# mien:"))
     return dict(item.strip().split(" = ") for item in line.removeprefix("# mien:").split(","))
