@@ -69,15 +69,15 @@ def combine(row: Parameter, pushes: Iterable[tuple[float, float]]) -> float:
 
     Args:
         row: the parameter.
-        pushes: (how far a full one goes, how much of it is there, 0..1); one that goes further than the end of the
-            range goes to the end.
+        pushes: (how far a full one goes, how much of it is there); a full one that would pass the end of the range
+            goes to the end, and half of it half as far.
     """
     room = {True: row.high - row.default, False: row.default - row.low}
     way = {True: 0.0, False: 0.0}
     for gain, amount in pushes:
-        up = gain > 0.0
+        up, share = gain * amount > 0.0, abs(amount)
         if gain and room[up]:
-            push = min(abs(gain), room[up]) * amount
+            push = min(abs(gain) * max(share, 1.0), room[up]) * min(share, 1.0)
             way[up] += push - way[up] * (push / room[up])
     # Rounding alone can pass an end.
     return min(max(row.default + way[True] - way[False], row.low), row.high)

@@ -107,7 +107,8 @@ class Remap:
     def reached_by(self, names: Iterable[str]) -> tuple[str, ...]:
         """Parameters that some of the names add to, in order."""
         columns = {self._column(name) for name in names}
-        return tuple(name for row, name in enumerate(self.to_names) if columns & _entries(self.gains, row).keys())
+        rows = zip(self.to_names, _entries(self.gains), strict=True)
+        return tuple(name for name, entries in rows if columns & entries.keys())
 
     def check(self, known_from: ParameterTable, known_to: ParameterTable) -> None:
         """Nothing, when both sets of names exist.
@@ -128,8 +129,8 @@ class Remap:
     def _parts(self, matrix: SparseMatrix, values: Mapping[str, Value]) -> dict[str, list[tuple[float, Value]]]:
         given = {self._column(name): value for name, value in values.items()}
         parts = (
-            (name, [(gain, given[column]) for column, gain in _entries(matrix, row).items() if column in given])
-            for row, name in enumerate(self.to_names)
+            (name, [(gain, given[column]) for column, gain in entries.items() if column in given])
+            for name, entries in zip(self.to_names, _entries(matrix), strict=True)
         )
         return {name: part for name, part in parts if part}
 
@@ -272,11 +273,11 @@ def _matrix(entries: list[tuple[int, int, float]], shape: tuple[int, int]) -> Sp
     return SparseMatrix.from_entries(rows, columns, np.array([gain for _, _, gain in entries], dtype=np.float64), shape)
 
 
-def _entries(matrix: SparseMatrix, row: int) -> dict[int, float]:
-    part = slice(int(matrix.starts[row]), int(matrix.starts[row + 1]))
-    return {
-        int(column): float(weight) for column, weight in zip(matrix.columns[part], matrix.weights[part], strict=True)
-    }
+@lru_cache(maxsize=64)
+def _entries(matrix: SparseMatrix) -> tuple[dict[int, float], ...]:
+    """(column -> weight) of each row."""
+    parts = (slice(*matrix.starts[row : row + 2]) for row in range(matrix.shape[0]))
+    return tuple(dict(zip(matrix.columns[part].tolist(), matrix.weights[part].tolist(), strict=True)) for part in parts)
 
 
 def _straight_keys(track: Track, name: str) -> tuple[np.ndarray, np.ndarray]:
