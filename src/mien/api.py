@@ -23,10 +23,11 @@ from .core import (
     subdivide,
 )
 from .formats.notes import notes
-from .formats.performances import default_threads
+from .formats.performances import PUPPET_SCENE, default_threads
 from .timeline import Layer, Rate, Timeline, Track
 
 if TYPE_CHECKING:
+    from .formats.glb import Puppet
     from .formats.obj import Model
     from .formats.picture import Picture
     from .formats.svg import VectorPicture
@@ -241,6 +242,30 @@ def make_model(
 
     face, pose = _resolve(face, pose)
     return Model(_posed_mesh(face, pose, scene or default_scene()), notes(face.name))
+
+
+def make_puppet(
+    face: Face | str = DEFAULT_FACE,
+    pose: Pose | Mapping[str, float] | None = None,
+    scene: Scene | None = None,
+) -> Puppet:
+    """A face that other programs can play, to be written as ``.glb``: its mesh, morph targets and joints.
+
+    Args:
+        face: a face or its address.
+        pose: what it looks like while no target acts, or the values that differ from neutral.
+        scene: says how often the mesh is subdivided, and where the eyes look; None is once, and ahead.
+
+    Raises:
+        MienError: the face is a flat drawing, has no joints, or no table for the names of the targets.
+    """
+    from .formats.glb import Puppet
+    from .formats.glb_targets import Anatomy, check_face
+
+    face, pose = _resolve(face, pose)
+    scene = scene or PUPPET_SCENE
+    check_face(face)
+    return Puppet(Anatomy(face, fill_rows(face, pose, scene), scene.subdivide), notes(face.name))
 
 
 def sheet(

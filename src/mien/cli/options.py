@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-FILM_HELP = "Film: .mp4 .webm .mov .gif .apng .webp; frames: a folder or f_%04d.png; .wav .srt .vtt; data: .json .csv"
+FILM_HELP = (
+    "Film: .mp4 .webm .mov .gif .apng .webp; frames: a folder or f_%04d.png; .wav .srt .vtt; .json .csv; puppet: .glb"
+)
 
 FaceName = Annotated[str, typer.Argument(metavar="FACE", help="A face: a name from 'mien faces', or a face file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]

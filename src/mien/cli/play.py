@@ -55,7 +55,7 @@ def play(
     from mien.core import MienError
     from mien.formats import DEFAULT_FPS, check_performance
     from mien.formats.atomic import check_file
-    from mien.formats.performances import BURN
+    from mien.formats.performances import BURN, usual_scene
     from mien.formats.table import find_format
 
     from . import settings
@@ -77,7 +77,7 @@ def play(
     stages = Stages(quiet)
     performance = api.play(timeline, face, fps=wanted, report=stages.say)
     scene = settings.make_scene(
-        performance.scene,
+        usual_scene(out, performance.scene),
         size=size,
         view=view,
         position=position,

@@ -38,9 +38,9 @@ def render(
     threads: options.Threads = None,
     quiet: options.Quiet = False,
 ) -> None:
-    """Draw one pose of a face: .png, .jpg, .svg (one shade a polygon), or its mesh: .obj.
+    """Draw one pose of a face: .png, .jpg, .svg (one shade a polygon), its mesh: .obj, or a puppet: .glb.
 
-    An SVG is subdivided once, and pictures on a sheet are 256 pixels wide, unless you say otherwise.
+    An SVG and a puppet are subdivided once, and pictures on a sheet are 256 pixels wide, unless you say otherwise.
 
     \b
     mien render head --set jaw.rotation=8 -o open.png
@@ -60,7 +60,7 @@ def render(
     kind = _find_kind(out, sheet, view or position)
     check_file(out)
     scene = settings.make_scene(
-        _usual_scene(kind, sheet),
+        _usual_scene(out, kind, sheet),
         size=size,
         view=view,
         position=position,
@@ -96,14 +96,15 @@ def _find_kind(out: Path, sheet: str | None, direction: str | None) -> str:
     return kind
 
 
-def _usual_scene(kind: str, sheet: str | None) -> Scene:
+def _usual_scene(out: Path, kind: str, sheet: str | None) -> Scene:
     from mien import api
+    from mien.formats.performances import usual_scene
 
     if sheet is not None:
         from mien.formats.face_sheets import sheet_scene
 
         return sheet_scene(sheet)
-    return replace(api.default_scene(), subdivide=1) if kind == "svg" else api.default_scene()
+    return replace(api.default_scene(), subdivide=1) if kind == "svg" else usual_scene(out, api.default_scene())
 
 
 def _write(
@@ -129,6 +130,10 @@ def _write(
         model = api.make_model(face, pose, scene)
         model.write(out)
         return f"{model.mesh.topology.polygon_count} polygons"
+    if kind == "glb":
+        puppet = api.make_puppet(face, pose, scene)
+        puppet.write(out)
+        return f"{len(puppet.anatomy.names)} morph targets"
     prepare(stages)
     if sheet is None:
         picture = api.draw(face, pose, scene, threads=threads)

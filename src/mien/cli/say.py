@@ -60,11 +60,12 @@ def say(
     mien say "Good night." --preset sleepy --style blinks=2,head=0.5 -o night.mp4
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
+    mien say "Hello there." -o hello.glb
     echo Hello | mien say - --emotion smile -o hello.json
     """
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
-    from mien.formats.performances import HEARD
+    from mien.formats.performances import HEARD, usual_scene
     from mien.perform import check_emotion, listen, parse_style
 
     from . import settings
@@ -73,7 +74,7 @@ def say(
 
     rate = DEFAULT_FPS if fps is None else settings.parse_rate(fps)
     scene = settings.make_scene(
-        api.default_scene(),
+        usual_scene(out, api.default_scene()),
         size=size,
         view=view,
         position=position,
@@ -90,6 +91,10 @@ def say(
     # Everything that can be wrong is looked at before the first long step.
     kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     subject = api.load_face(face)
+    if kind == "glb":
+        from mien.formats.glb_targets import check_face
+
+        check_face(subject)
     pose = settings.make_pose(subject, values, preset, units, mix, person)
     api.find_voice(voice)
     if emotion is not None:

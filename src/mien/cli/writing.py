@@ -32,7 +32,14 @@ def write(
         prepare(stages)
     with stages.progress("drawing") if kind in DRAWN else stages.stage("writing") as report:
         write_performance(
-            performance, out, fps=fps, threads=threads, subtitles=subtitles, variable=variable, report=report
+            performance,
+            out,
+            fps=fps,
+            scene=performance.scene,
+            threads=threads,
+            subtitles=subtitles,
+            variable=variable,
+            report=report,
         )
     if subtitles is not None and subtitles != BURN:
         stages.say(subtitles)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import MienError
+from .face import Face
 from .mesh import Ints, Points
 from .parameters import Pose
 
@@ -112,7 +113,7 @@ class Rig:
 
 
 @runtime_checkable
-class Rigged(Protocol):
+class Rigged(Face, Protocol):
     """A face that has rigid parts."""
 
     def rig(self, pose: Pose) -> Rig:
@@ -131,7 +132,10 @@ def pick_anchors(points: Points, vertices: Ints) -> tuple[int, int, int]:
 def find_motion(anchors: Ints, rest: Points, points: Points) -> Motion:
     """How rigid parts, each with three anchors (J, 3), have moved from points (V, 3) m at rest to others."""
     turns = _products(_frames(points[anchors]), _frames(rest[anchors]).transpose(0, 2, 1))
-    return Motion(turns, points[anchors[:, 0]] - _turned(turns, rest[anchors[:, 0]]))
+    shifts = points[anchors[:, 0]] - _turned(turns, rest[anchors[:, 0]])
+    still = (points[anchors] == rest[anchors]).all(axis=(1, 2))
+    turns[still], shifts[still] = np.eye(3), 0.0  # exactly
+    return Motion(turns, shifts)
 
 
 def find_pivot(motions: Iterable[Motion]) -> tuple[float, float, float]:
@@ -150,6 +154,8 @@ def find_pivot(motions: Iterable[Motion]) -> tuple[float, float, float]:
 
 def unmoved(places: Points, shares: Floats, motion: Motion) -> Points:
     """(V, 3) m, where points would be at rest that the joints have moved by shares (V, J)."""
+    if not (motion.turns - np.eye(3)).any() and not motion.shifts.any():
+        return places
     blend, shift = np.zeros((len(places), 3, 3)), np.zeros((len(places), 3))
     for joint in range(shares.shape[1]):
         blend += shares[:, joint, None, None] * motion.turns[joint]

@@ -39,6 +39,12 @@ DRAWN = ("film", "folder", "series")
 HEARD = ("wav", "subtitles")
 """Formats that need nothing but what is heard."""
 
+PUPPET_SCENE = Scene(subdivide=1)
+"""Of a ``.glb``, which others see with cameras of their own: the eyes look ahead."""
+
+BESIDE = ("json", "glb")
+"""Formats that name a file with the sound, which lies beside them."""
+
 Frames = Generator[NDArray[np.uint8], None, None]
 
 Report = Callable[[int, int], None]
@@ -86,7 +92,7 @@ def check_performance(
         check_file(path)
     if kind == "film":
         check_film(path, fps, scene.size_px, is_transparent(scene))
-    if kind == "json":
+    if kind in BESIDE:
         check_file(path.with_suffix(".wav"))
     if subtitles is not None:
         _check_subtitles(subtitles, path, kind, scene)
@@ -111,6 +117,11 @@ def _check_subtitles(subtitles: Path | str, path: Path, kind: str, scene: Scene)
         )
 
 
+def usual_scene(path: Path | None, scene: Scene) -> Scene:
+    """The scene of a file where none is asked for: the given one, but of a ``.glb`` ``PUPPET_SCENE``."""
+    return PUPPET_SCENE if path is not None and path.suffix.lower() == ".glb" else scene
+
+
 def is_transparent(scene: Scene) -> bool:
     """Whether something of what is behind a picture shows through."""
     return min(color[3] for color in scene.background) < 1.0
@@ -132,9 +143,10 @@ def write_performance(
     Args:
         performance: what to write.
         path: where to; the folder of it exists. Films are those of the table ``codecs``; pictures come as a folder or
-            as ``frame_%04d.png``; ``.wav``, ``.srt`` and ``.vtt`` are what is heard, ``.json`` and ``.csv`` data.
+            as ``frame_%04d.png``; ``.wav``, ``.srt`` and ``.vtt`` are what is heard, ``.json`` and ``.csv`` data,
+            ``.glb`` a puppet for other programs.
         fps: frames a second, 1..240; 23.976 is 24000/1001. None is the rate the timeline was made for, or 24.
-        scene: None is the performance's own.
+        scene: None is the performance's own; of a ``.glb``, ``PUPPET_SCENE``.
         threads: that draw; None is one a core, four at most. Pictures are equal for any number.
         subtitles: a file ``.srt`` or ``.vtt`` to write them to as well, or ``burn`` to draw them into the pictures.
         variable: whether equal pictures of a film in a row become one that stays longer.
@@ -145,7 +157,7 @@ def write_performance(
     """
     path, timeline = Path(path), performance.timeline
     rate = check_rate((timeline.fps or DEFAULT_FPS) if fps is None else fps)
-    scene = scene or performance.scene
+    scene = scene or usual_scene(path, performance.scene)
     kind = check_performance(path, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     job = _Job(path, kind, rate, timeline, performance.face, performance.sound, scene)
     shown = _find_subtitles(timeline, path) if kind == "subtitles" or subtitles is not None else ()
@@ -220,6 +232,12 @@ def _write_data(job: _Job, subtitles: Sequence[Subtitle]) -> None:
         from .timeline_files import write_json
 
         write_json(with_rate(job.timeline, job.rate), job.path, face=job.face, scene=job.scene, sound=job.sound)
+    elif job.kind == "glb":
+        from .glb import write_glb
+
+        write_glb(
+            job.timeline, job.path, face=job.face, scene=job.scene, rate=job.rate, sound=job.sound, notes=job.notes
+        )
     else:
         from .timeline_files import write_csv
 

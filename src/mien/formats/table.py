@@ -36,6 +36,7 @@ FORMATS: tuple[Format, ...] = (
     Format("jpeg", (".jpg", ".jpeg"), ("picture", "pixels"), "JPEG, over white"),
     Format("svg", (".svg",), ("picture",), "filled paths, sharp at every size"),
     Format("obj", (".obj",), ("picture",), "the mesh: points with colours and normals, polygons, parts"),
+    Format("glb", (".glb",), ("picture", "performance"), "the mesh with morph targets and joints, for other programs"),
     Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
     Format("wav", (".wav",), ("performance",), "the sound alone"),
     Format("subtitles", (".srt", ".vtt"), ("performance", "subtitles"), "what is said, as SubRip or WebVTT subtitles"),

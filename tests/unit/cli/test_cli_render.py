@@ -16,7 +16,7 @@ def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("name", ["a.png", "a.JPG", "a.svg", "a.obj"])
+@pytest.mark.parametrize("name", ["a.png", "a.JPG", "a.svg", "a.obj", "a.glb"])
 def test_the_suffix_picks_the_format_and_the_bytes_are_the_same_again(name: str) -> None:
     def render() -> bytes:
         assert main(["render", "head", "--size", "64", "--subdivide", "0", "-q", "-o", name]) == 0
@@ -33,6 +33,16 @@ def test_an_svg_is_subdivided_once_unless_asked_for_more(capsys: pytest.CaptureF
         counts.append(sum(1 for _ in ElementTree.parse("a.svg").iter("{http://www.w3.org/2000/svg}path")))
     assert counts[0] == counts[1] > 1.5 * counts[2] > 0
     assert f"a.svg: {counts[2]} paths" in capsys.readouterr().err
+
+
+def test_a_puppet_is_subdivided_once_and_looks_ahead_unless_asked_for_more(capsys: pytest.CaptureFixture[str]) -> None:
+    found = []
+    for more in (["--subdivide", "1", "--from", "0,-0.026,1.1"], [], ["--view", "side"], ["--subdivide", "0"]):
+        assert main(["render", "head", "-o", "a.glb", *more]) == 0
+        found.append(Path("a.glb").read_bytes())
+    assert found[0] == found[1] != found[2]
+    assert len(found[3]) < 0.6 * len(found[0])
+    assert "a.glb: 52 morph targets; done in" in capsys.readouterr().err
 
 
 def test_a_smooth_svg_is_said_to_be_none(capsys: pytest.CaptureFixture[str]) -> None:
@@ -65,6 +75,7 @@ MISTAKES = {
     "unknown sheet": (["--sheet", "presests", "-o", "a.png"], "unknown sheet 'presests' — did you mean 'presets'"),
     "sheet of paths": (["--sheet", "views", "-o", "a.svg"], "a sheet is made of pixels — end the name in .png or .jpg"),
     "sheet of meshes": (["--sheet", "views", "-o", "a.obj"], "a sheet is made of pixels"),
+    "sheet of puppets": (["--sheet", "views", "-o", "a.glb"], "a sheet is made of pixels"),
     "views from one side": (["--sheet", "views", "--view", "side", "-o", "a.png"], "from all sides, not from side"),
     "huge sheet": (["--sheet", "parameters", "--size", "2000", "-o", "a.png"], "at most 16384 a side"),
     "almost a suffix": (["-o", "a.svgg"], "did you mean '.svg'"),

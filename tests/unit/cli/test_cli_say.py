@@ -89,6 +89,18 @@ def test_another_seed_moves_otherwise(tmp_path: Path) -> None:
     assert one != two
 
 
+def test_a_puppet_is_the_same_said_or_played_again(tmp_path: Path) -> None:
+    options = ["--subdivide", "0", "-q", "-o"]
+    for name in ("said", "played"):
+        (tmp_path / name).mkdir()
+    saying = ["say", "Go.", "--seed", "5", "--preset", "sleepy"]
+    assert main([*saying, *options, str(tmp_path / "said" / "a.glb")]) == 0
+    assert main([*saying, *options, str(tmp_path / "a.json")]) == 0
+    assert main(["play", str(tmp_path / "a.json"), *options, str(tmp_path / "played" / "a.glb")]) == 0
+    for name in ("a.glb", "a.wav"):
+        assert (tmp_path / "said" / name).read_bytes() == (tmp_path / "played" / name).read_bytes()
+
+
 @pytest.mark.parametrize("fps", ["1", "240"])
 def test_the_slowest_and_the_fastest_rate(tmp_path: Path, fps: str) -> None:
     assert main(["say", "Go.", "--fps", fps, "-o", str(tmp_path / "a.mp4"), "--size", "16", "--subdivide", "0"]) == 0

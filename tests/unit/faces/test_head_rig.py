@@ -69,6 +69,25 @@ def test_eyes_turn_about_their_middle() -> None:
     np.testing.assert_allclose(places, still, atol=1e-12)
 
 
+SHAPED = {"face.size": 1.1, "eye.place.side": 20.0, "eye.size": 60.0, "chin.up": -30.0, "teeth.width": 1.2}
+
+
+def test_joints_of_other_proportions_turn_where_they_are() -> None:
+    head = HEADS["subdivided"]
+    shaped = head.neutral.replace(SHAPED)
+    rig = head.rig(shaped)
+    rest = head.shape(shaped).points
+    turned = head.shape(
+        shaped.replace({"eye.turn": 20.0, "eye.nod": 9.0, "jaw.rotation": 15.0, "head.nod": 10.0})
+    ).points
+    _, still = rig.steps(rig.motion(rest, rest))
+    _, places = rig.steps(rig.motion(rest, turned))
+    rigid = [0, 1, 3, 4]
+    np.testing.assert_allclose(places[rigid], still[rigid], atol=1e-6)
+    np.testing.assert_allclose(places, still, atol=3e-4)  # what shapes a face scales the teeth after the jaw has turned
+    assert rig.pivots[3][0] > head.rig(head.neutral).pivots[3][0] + 0.002  # the left eye is farther out
+
+
 def test_every_face_that_ships_has_joints() -> None:
     for name, _ in mien.face_names():
         face = mien.load_face(name)

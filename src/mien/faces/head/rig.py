@@ -18,7 +18,7 @@ TARGET = ("target.x", "target.y", "target.z")
 
 JOINTS = (  # name, what carries it, parameters that turn it, other parameters that move it
     ("body", None, (), ()),
-    ("head", "body", ("head.turn", "head.nod", "head.tilt"), ()),
+    ("head", "body", ("head.turn", "head.nod", "head.tilt"), ("head.forward",)),
     ("jaw", "head", ("jaw.rotation",), ("jaw.side", "jaw.forward")),
     *((f"eye.{side}", "head", (f"eye.turn.{side}", f"eye.nod.{side}"), TARGET) for side in ("left", "right")),
 )
