@@ -281,7 +281,7 @@ def sheet(
 
     Args:
         face: a face or its address.
-        kind: ``presets``, ``parameters`` at the ends of their ranges, or ``views``.
+        kind: ``presets``, ``parameters`` at the ends of their ranges, ``views``, or a vocabulary such as ``facs``.
         pose: what every picture starts from, or the values that differ from neutral.
         scene: light, shading, size of one picture, where it is seen from; None is a near view, 256 pixels wide.
         threads: None is one a core; the picture does not depend on it.

@@ -75,7 +75,9 @@ Subdivide = Annotated[
 ]
 Sheet = Annotated[
     str | None,
-    typer.Option("--sheet", metavar="KIND", help="A labelled page instead: presets, parameters or views of the face."),
+    typer.Option(
+        "--sheet", metavar="KIND", help="A labelled page instead: presets, parameters, views, or a vocabulary (facs …)."
+    ),
 ]
 Background = Annotated[
     str | None,

@@ -50,6 +50,7 @@ def render(
     mien render head --background transparent -o cutout.svg
     mien render head:parke1974 --light parke --diffuse 0.2 --cosine-power 2 -o plate.png
     mien render head --sheet presets -o presets.png
+    mien render head --sheet facs --size 192 -o action_units.png
     """
     from mien import api
     from mien.formats.atomic import check_file

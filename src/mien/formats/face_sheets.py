@@ -1,15 +1,18 @@
-"""Labelled sheets of any face, made from its own tables: presets, parameters, views."""
+"""Labelled sheets of any face, made from tables: presets, parameters, views, the names of a vocabulary."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Drawing, Face, MienError, ParameterTable, Pose, Scene, UnknownNameError
 from mien.render import Renderer
+from mien.vocab import load_remap, next_step, pose_from, vocabularies, vocabulary
+from mien.vocab.rules import companions
 
 from .notes import notes, software
 from .picture import Picture
@@ -69,8 +72,7 @@ def sheet_scene(kind: str) -> Scene:
     Raises:
         UnknownNameError: there is no such kind.
     """
-    if kind not in SHEETS:
-        raise UnknownNameError("sheet", kind, SHEETS)
+    _fill(kind)
     scene = Scene(size_px=SIZE_PX)
     return scene if kind == "views" else replace(scene, at=(0.0, -0.008, 0.0)).turned(14.0, 2.0, 0.93)
 
@@ -88,7 +90,8 @@ def make_sheet(
 
     Args:
         face: any face.
-        kind: ``presets``, by their kind; ``parameters``, at the ends of their ranges, by group; ``views``.
+        kind: ``presets``, by their kind; ``parameters``, at the ends of their ranges, by group; ``views``; or a
+            vocabulary, each of its names at its fullest, by group.
         pose: what every picture starts from; None is neutral.
         scene: light, shading, the size of one picture, where it is seen from; None as ``sheet_scene``.
         threads: how many draw; the picture does not depend on it.
@@ -96,11 +99,11 @@ def make_sheet(
 
     Raises:
         UnknownNameError: there is no such kind.
-        MienError: the sheet would be too large or has nothing on it.
+        MienError: the sheet would be too large or has nothing on it, or the face cannot play the vocabulary.
     """
     usual, shots = sheet_scene(kind), _Shots()
     scene = scene or usual
-    sections = SHEETS[kind](face, Pose.neutral(face.parameters) if pose is None else pose, scene, shots)
+    sections = _fill(kind)(face, Pose.neutral(face.parameters) if pose is None else pose, scene, shots)
     page = Page(face.name, f"{kind} · {software()}", sections)
     check_page(page, scene.size_px)
     if report is not None:
@@ -174,5 +177,32 @@ def _views(face: Face, pose: Pose, scene: Scene, shots: _Shots) -> tuple[Section
     return (Section("", tuple(blocks)),)
 
 
+def _names(vocabulary_name: str, face: Face, pose: Pose, scene: Scene, shots: _Shots) -> tuple[Section, ...]:
+    table = vocabulary(vocabulary_name)
+    played = load_remap(vocabulary_name, next_step(vocabulary_name, face.family)).index
+    groups: dict[str, list[Block]] = {}
+    for name, rows in moving_rows(table).items():
+        first = table[rows[0]]
+        if first.name in played:
+            values = {**companions(vocabulary_name, first.name), **dict.fromkeys(rows, first.high)}
+            number = shots.number(pose_from(vocabulary_name, values, face, pose), scene)
+            both = first.doc.replace(" left ", " ") if len(rows) > 1 else first.doc
+            groups.setdefault(first.group, []).append(Block(name, "", (number,), (both,)))
+    return tuple(Section(group, tuple(blocks)) for group, blocks in groups.items())
+
+
 SHEETS: Mapping[str, Fill] = {"presets": _presets, "parameters": _parameters, "views": _views}
-"""Kinds of sheets by name."""
+"""Kinds of sheets by name; a vocabulary is one more."""
+
+
+def _fill(kind: str) -> Fill:
+    """What fills a sheet of a kind.
+
+    Raises:
+        UnknownNameError: there is no such kind.
+    """
+    if kind in vocabularies():
+        return partial(_names, kind)
+    if kind not in SHEETS:
+        raise UnknownNameError("sheet", kind, [*SHEETS, *vocabularies()])
+    return SHEETS[kind]

@@ -12,6 +12,7 @@ from PIL import Image
 from small_face import SmallFace, SmallRenderer
 
 from mien.core import Drawing, MienError, Parameter, ParameterTable, Pose, Preset, Scene, UnknownNameError, color
+from mien.faces import load_face
 from mien.formats import face_sheets
 from mien.formats.face_sheets import make_sheet, moving_rows, sheet_scene
 from mien.formats.picture import Picture
@@ -152,6 +153,25 @@ def test_views_of_a_flat_face_are_refused() -> None:
 def test_a_face_without_presets_is_told_so() -> None:
     with pytest.raises(MienError, match="nothing to show"):
         make_sheet(SmallFace(presets={}), "presets", None, scene())
+
+
+def test_a_vocabulary_is_drawn_name_by_name_with_what_it_needs() -> None:
+    face = load_face("head")
+    sections = face_sheets._names("arkit", face, face.neutral, scene(), shots := face_sheets._Shots())
+    poses = [shot.pose for shot in shots.all]
+    assert sum(len(section.blocks) for section in sections) == len(poses) == 52
+    assert face.neutral.replace({"jaw.rotation": 20.0, "mouth.closure": 1.0}) in poses
+    sections = face_sheets._names("facs", face, face.neutral, scene(), shots := face_sheets._Shots())
+    blocks = {block.name: block for section in sections for block in section.blocks}
+    assert blocks["AU12"].captions == ("The corner of the mouth goes up and back.",)
+    assert shots.all[blocks["AU12"].pictures[0]].pose.changed() == dict.fromkeys(
+        ("mouth.expression.left", "mouth.expression.right"), 0.0
+    )
+
+
+def test_a_face_of_another_family_has_no_sheet_of_names() -> None:
+    with pytest.raises(MienError, match="cannot play"):
+        make_sheet(SmallFace(), "facs", None, scene())
 
 
 def test_an_unknown_kind_is_refused_with_the_near_one() -> None:
