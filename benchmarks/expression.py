@@ -41,6 +41,10 @@ FARTHEST_M = 0.004
 """A point of our skin this far from the reference's has no counterpart there."""
 
 
+FOLDS = ("AU1", "AU2", "AU4", "AU6", "AU7", "AU9", "AU10", "AU11", "AU12", "AU17")
+"""Units that are known by their folds: forehead, glabella, eye corner, lower lid, nose, cheek, chin."""
+
+
 @dataclass(frozen=True)
 class Row:
     """One unit: shapes, points of the moving region, largest move, RMS and largest difference, mm, and correlation."""
@@ -114,6 +118,14 @@ class Comparison:
             total += float(share or 1.0) * self.deltas[self.names.index(name)].astype(np.float64)
         return self.onto @ total * CM
 
+    def fold(self, unit: str) -> tuple[str, float]:
+        """Vertex of the skin that a unit darkens most, and the share of its light that is gone."""
+        count = self.refine.shape[1]
+        rest = self.head.shape(self.head.neutral).colors[:count]
+        light = (self.head.shape(pose_from("facs", {unit: 1.0}, self.head)).colors[:count] / rest).min(axis=1)
+        vertex = int(light.argmin())
+        return self.labels[vertex], 1.0 - float(light[vertex])
+
     def _skin(self, pose: Pose) -> np.ndarray:
         return self.refine @ self.head.shape(pose).points[: self.refine.shape[1]]
 
@@ -143,7 +155,10 @@ def main() -> None:
             f"{row.unit:6s}{row.count:7d}{row.largest_mm:6.1f} mm{row.correlation:13.3f}{row.rms_mm:7.2f}"
             f"{row.worst_mm:8.1f}  {row.where:6s} {row.shapes}{'' if row.good else '  <-- short'}"
         )
-    print(f"\n{sum(row.good for row in rows)} of {len(rows)} as near as wanted: {WANTED[0]}, {WANTED[1]} mm RMS")
+    print(f"\n{sum(row.good for row in rows)} of {len(rows)} as near as wanted: {WANTED[0]}, {WANTED[1]} mm RMS\n")
+    for unit in FOLDS:
+        where, share = comparison.fold(unit)
+        print(f"{unit:6s}darkest fold {share:4.0%} at {where}")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ CORNER_X = 0.023
 ARCH_CURVE = 21.0
 """How the lips bend around the teeth: they lie back by 21 x^2 metres at x metres from the middle."""
 
-SMILE = (("mouthSmile", 1.0), ("cheekSquint", 0.38), ("mouthDimple", 0.10))
+SMILE = (("mouthSmile", 1.0), ("cheekSquint", 0.32), ("mouthDimple", 0.08))
 """Measured expressions that make Parke's second set of mouth points, the smile at ``mouth.expression`` 0."""
 
 CORNER_RINGS = {"mh": 0.7, "m1": 1.0, "mb": 0.8}

@@ -18,6 +18,7 @@ from .carrying import Carried, bind_to_skin
 from .conformation import Shaper, blend_moves, no_fields
 from .directions import directions
 from .eyes import SPOT_SIDES, band_steps, circle
+from .folds import fold_moves, folds_of
 from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
 from .measured import Archive, Floats, Measured
@@ -99,10 +100,16 @@ class Poser:
     ) -> None:
         self._columns = np.array([table.index[name] for name in posing.CONTROLS], dtype=np.int64)
         moves = [
-            *(*muscle_moves(measured.morphs), *brow_moves(brows, measured), *smile_moves(measured)),
+            *(
+                *muscle_moves(measured.morphs),
+                *fold_moves(measured.morphs),
+                *brow_moves(brows, measured),
+                *smile_moves(measured),
+            ),
             *blend_moves(directions(measured.kind)),
         ]
         self._moves: Moves = moves_of(moves, table)
+        self._folds = folds_of(archive, table, layout.skin)
         centres = eyes.balls[:, :3]
         first, behind = layout.span["teeth"].start, layout.span["tongue"].stop
         unbound = layout.join(rest)
@@ -150,6 +157,9 @@ class Poser:
         skins = np.empty((1, len(self._skin)))
         posing.add_moves(self._weights(values[None]), self._moves.deltas, self._skin, skins)
         self._pose(values[None], skins, points[None], normals[None], colors[None])
+        folds = self._folds
+        amounts = np.empty(folds.count)
+        posing.fold_colors(values, folds.drivers, folds.rules, folds.places, folds.dark, amounts, colors)
 
     def pose_many(self, values: Floats, points: Points) -> None:
         """Fill the points (N, V, 3) m of poses (N, P): as ``pose`` does, but for the rounding of sums of moves."""

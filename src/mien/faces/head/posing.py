@@ -18,6 +18,7 @@ from mien.compiling import kernel
 from .brows import place_brows, shape_brow, sum_normals
 from .conformation import shape_held, shape_points
 from .eyes import fill_radii, look_at, place_eye, place_spot
+from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, move_lids
@@ -258,6 +259,12 @@ def add_moves(weights, deltas, rest, skins):
             if weight != 0.0:
                 for i in range(len(rest)):
                     skin[i] += weight * delta[i]
+
+
+@kernel("f8[:], i8[:,:], f8[:,:], i8[:,:], f8[:], f8[:], f8[:,:]")
+def fold_colors(values, drivers, rules, places, dark, amounts, colors):
+    """Darken the colours (V, 3) of a head in a pose (P,) where its skin folds: see ``fold_skin``."""
+    fold_skin(values, drivers, rules, places, dark, amounts, colors)
 
 
 # fmt: off
