@@ -116,4 +116,5 @@ def fold_skin(values, drivers, rules, places, dark, amounts, colors):
     for k in range(len(places)):
         depth = dark[k] * min(amounts[places[k, 1]], 1.0)
         for channel in range(3):
-            colors[places[k, 0], channel] *= 1.0 - depth * TINT[channel]
+            lit = colors[places[k, 0], channel] * (1.0 - depth * TINT[channel])
+            colors[places[k, 0], channel] = min(lit, 1.0)
