@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mien
-from mien.core import fill_rows
+from mien.core import Mesh, fill_rows
 from mien.formats.glb_motion import record, resting_pose
 from mien.formats.glb_targets import Anatomy, check_face
 from mien.formats.performances import PUPPET_SCENE
@@ -28,6 +28,7 @@ Floats = NDArray[np.float64]
 
 SENTENCE = "How happy is the little stone that rambles in the road alone."
 COMBINED = (1, 2, 4, 8)
+WORTH_A_ROW_MM = 1.0
 RATE = exact_rate(24)
 
 
@@ -86,6 +87,16 @@ def print_row(title: str, missed: Floats, whole: Floats, moved: NDArray[np.bool_
     )
 
 
+def print_rows(title: str, mesh: Mesh, missed: Floats, whole: Floats, moved: NDArray[np.bool_]) -> None:
+    """A row for everything, and one for each part in which much is missed."""
+    print_row(title, missed, whole, moved)
+    for part in mesh.topology.parts:
+        inside = np.zeros_like(moved)
+        inside[mesh.part_vertices(part.name)] = True
+        if 1000.0 * np.abs(missed[:, moved & inside]).max(initial=0.0) > WORTH_A_ROW_MM:
+            print_row(f"  of it {part.name}", missed, whole, moved & inside)
+
+
 def print_files(face: mien.Face) -> None:
     """Sizes of files and the time to write them."""
     with TemporaryDirectory() as folder:
@@ -115,11 +126,13 @@ def main() -> None:
     fields = read_fields(anatomy)
     moved = (np.abs(fields).max(axis=(0, 2)) > 1e-6).astype(bool)
     print(f"{'mm':34} {'RMS':>9} {'worst RMS':>11} {'max':>9} {'whole RMS':>9} {'whole max':>9}")
+    mesh = face.shape(face.neutral)
     for several in COMBINED:
-        missed, whole = combined(anatomy, fields, several, options.count, options.seed)
-        print_row(f"{several} random names at random values", missed, whole, moved)
+        print_rows(
+            f"{several} random names", mesh, *combined(anatomy, fields, several, options.count, options.seed), moved
+        )
     missed, whole, frames = spoken(face, SENTENCE)
-    print_row(f"sentence, {frames} frames", missed, whole, moved)
+    print_rows(f"sentence, {frames} frames", mesh, missed, whole, moved)
     print_files(face)
 
 
