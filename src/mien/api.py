@@ -316,6 +316,7 @@ def perform(
     seed: int = 0,
     style: Style | None = None,
     emotion: str | None = None,
+    emotion_amount: float = 1.0,
     pose: Pose | None = None,
     scene: Scene | None = None,
 ) -> Performance:
@@ -327,6 +328,7 @@ def perform(
         seed: of blinks, small movements and brows.
         style: how lively; None is the usual.
         emotion: a preset of the face that shows through.
+        emotion_amount: how much of it, 0..1.
         pose: what the face looks like while nothing moves it; None is neutral.
         scene: where it is seen from; None is a slight three-quarter view.
     """
@@ -334,7 +336,7 @@ def perform(
     from .perform import perform as make
 
     face = load_face(face) if isinstance(face, str) else face
-    performance = make(speech, face, seed=seed, style=style or Style(), emotion=emotion)
+    performance = make(speech, face, seed=seed, style=style or Style(), emotion=emotion, emotion_amount=emotion_amount)
     timeline = performance.timeline if pose is None else with_settings(performance.timeline, pose)
     return replace(performance, timeline=timeline, scene=scene or default_scene())
 
@@ -347,6 +349,7 @@ def say(
     seed: int = 0,
     style: Style | None = None,
     emotion: str | None = None,
+    emotion_amount: float = 1.0,
     pose: Pose | None = None,
     scene: Scene | None = None,
 ) -> Performance:
@@ -355,9 +358,11 @@ def say(
 
     face = load_face(face) if isinstance(face, str) else face
     if emotion is not None:
-        check_emotion(face, emotion)
+        check_emotion(face, emotion, emotion_amount)
     speech = speak(text, voice)
-    return perform(speech, face, seed=seed, style=style, emotion=emotion, pose=pose, scene=scene)
+    return perform(
+        speech, face, seed=seed, style=style, emotion=emotion, emotion_amount=emotion_amount, pose=pose, scene=scene
+    )
 
 
 def play(

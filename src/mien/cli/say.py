@@ -27,7 +27,10 @@ def say(
         ),
     ] = "",
     emotion: Annotated[
-        str | None, typer.Option("--emotion", metavar="NAME", help="An expression that shows through: a preset.")
+        str | None,
+        typer.Option(
+            "--emotion", metavar="NAME[=N]", help="An expression that shows through: a preset, or 0..1 of it."
+        ),
     ] = None,
     seed: Annotated[int, typer.Option("--seed", metavar="N", help="Of blinks, small movements and brows.")] = 0,
     values: options.Sets = None,
@@ -61,7 +64,7 @@ def say(
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     mien say "Hello there." -o hello.glb
-    echo Hello | mien say - --emotion smile -o hello.json
+    echo Hello | mien say - --emotion smile=0.6 -o hello.json
     """
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
@@ -97,8 +100,9 @@ def say(
         check_face(subject)
     pose = settings.make_pose(subject, values, preset, units, mix, person)
     api.find_voice(voice)
-    if emotion is not None:
-        check_emotion(subject, emotion)
+    mood, amount = settings.parse_emotion(emotion)
+    if mood is not None:
+        check_emotion(subject, mood, amount)
     manner = parse_style(style)
     words = settings.read_text(text)
 
@@ -111,5 +115,14 @@ def say(
         performance = listen(speech, subject)
     else:
         with stages.stage("moving the face"):
-            performance = api.perform(speech, subject, seed=seed, style=manner, emotion=emotion, pose=pose, scene=scene)
+            performance = api.perform(
+                speech,
+                subject,
+                seed=seed,
+                style=manner,
+                emotion=mood,
+                emotion_amount=amount,
+                pose=pose,
+                scene=scene,
+            )
     write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)

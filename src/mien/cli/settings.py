@@ -38,11 +38,16 @@ def parse_presets(texts: Sequence[str] | None) -> dict[str, float]:
     Raises:
         MienError: a text is not of that form.
     """
-    amounts = {}
-    for text in texts or ():
-        name, equals, number = text.partition("=")
-        amounts[name.strip()] = _number(number, f"--preset {text}") if equals else 1.0
-    return amounts
+    return dict(_name_and_amount(text, "--preset") for text in texts or ())
+
+
+def parse_emotion(text: str | None) -> tuple[str | None, float]:
+    """Name and amount, from ``sad`` or ``sad=0.6``.
+
+    Raises:
+        MienError: the text is not of that form.
+    """
+    return (None, 1.0) if text is None else _name_and_amount(text, "--emotion")
 
 
 def parse_mix(texts: Sequence[str] | None) -> dict[str, float]:
@@ -200,6 +205,11 @@ def read_text(text: str) -> str:
     if not text.strip():
         raise MienError(f'{place} is empty — give something to say, as in mien say "Hello there." -o hello.mp4')
     return text
+
+
+def _name_and_amount(text: str, option: str) -> tuple[str, float]:
+    name, equals, number = text.partition("=")
+    return name.strip(), _number(number, f"{option} {text}") if equals else 1.0
 
 
 def _number(text: str, place: str) -> float:

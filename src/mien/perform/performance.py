@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mien.core import Face, ParameterTable, Scene, Sound, UnknownNameError
+from mien.core import Face, ParameterTable, RangeError, Scene, Sound, UnknownNameError
 from mien.gaze import blinks, brow_raises, find_accents, head_sway, nods, saccades
 from mien.speech import Speech
 from mien.speech.mouth import MOUTH_CHANNELS, articulate
@@ -66,7 +66,13 @@ class Performance:
 
 
 def perform(
-    speech: Speech, face: Face, *, seed: int = 0, style: Style = USUAL, emotion: str | None = None
+    speech: Speech,
+    face: Face,
+    *,
+    seed: int = 0,
+    style: Style = USUAL,
+    emotion: str | None = None,
+    emotion_amount: float = 1.0,
 ) -> Performance:
     """What a face does while it says something, as a timeline of named layers, with the sound.
 
@@ -80,10 +86,12 @@ def perform(
         seed: of everything that chance decides; the same seed gives the same bits.
         style: how lively.
         emotion: a preset of the kind ``expression``, eased in and out.
+        emotion_amount: how much of it, 0..1.
 
     Raises:
         MienError: the face is of a family that cannot be played.
         UnknownNameError: the face has no such expression.
+        RangeError: there is no such amount.
     """
     remap = load_remap(VOCABULARY, face.family)
     voiced = listen(speech, face)
@@ -94,7 +102,7 @@ def perform(
     layers = (
         Layer("idle", "add", _play(remap, {**_sway(length_s, seed, style), **lids})),
         Layer("gaze", "add", _play(remap, _glances(speech, length_s, seed, style))),
-        Layer("expression", "add", _expression(face, remap, emotion, length_s)),
+        Layer("expression", "add", _expression(face, remap, emotion, emotion_amount, length_s)),
         Layer("speech", "add", _play(remap, moved)),
         Layer("shut", "multiply", _shut(remap, {**mouth, **lids})),
         Layer("direct", "replace", {}),
@@ -112,15 +120,18 @@ def listen(speech: Speech, face: Face) -> Performance:
     return Performance(timeline, face, speech.sound)
 
 
-def check_emotion(face: Face, emotion: str) -> None:
-    """Nothing, when the face has such an expression.
+def check_emotion(face: Face, emotion: str, amount: float = 1.0) -> None:
+    """Nothing, when the face has such an expression, and there can be so much of it.
 
     Raises:
         UnknownNameError: it has none of that name.
+        RangeError: the amount is not in 0..1.
     """
     expressions = [name for name, preset in face.presets.items() if preset.kind == "expression"]
     if emotion not in expressions:
         raise UnknownNameError(f"emotion of {face.name!r}", emotion, expressions)
+    if not 0.0 <= amount <= 1.0:
+        raise RangeError(f"emotion {emotion!r}: {amount:g} is out of range — it goes from 0 to 1")
 
 
 def _lids(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
@@ -165,16 +176,16 @@ def _moving(tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
     return {name: track for name, track in tracks.items() if np.any(track.given()[1] != rest)}
 
 
-def _expression(face: Face, remap: Remap, emotion: str | None, length_s: float) -> dict[str, Track]:
-    """Tracks that add what a preset changes, eased in and out."""
+def _expression(face: Face, remap: Remap, emotion: str | None, amount: float, length_s: float) -> dict[str, Track]:
+    """Tracks that add an amount of what a preset changes, eased in and out."""
     if emotion is None:
         return {}
-    check_emotion(face, emotion)
+    check_emotion(face, emotion, amount)
     spoken = set(remap.reached_by(_spoken(remap)))
     ease = min(EASE_S, length_s / 3.0)
     tracks = {}
     for name, offset in _offsets(face.parameters, face.presets[emotion].values).items():
-        reached = offset * (SPOKEN_SHARE if name in spoken else 1.0)
+        reached = amount * offset * (SPOKEN_SHARE if name in spoken else 1.0)
         times = [0.0, ease, length_s - ease, length_s]
         tracks[name] = Track.from_keys(times, [0.0, reached, reached, 0.0], "cosine", name=name)
     return tracks

@@ -8,7 +8,7 @@ import pytest
 
 import mien
 from mien.cli import main
-from mien.cli.settings import make_pose, parse_presets
+from mien.cli.settings import make_pose, parse_emotion, parse_presets
 from mien.core import MienError, RangeError
 from mien.vocab import vocabularies, vocabulary
 
@@ -82,6 +82,14 @@ def test_a_preset_in_part_is_part_of_the_way() -> None:
     assert half["eyelid.opening.left"] == pytest.approx(0.5 * (0.75 + whole["eyelid.opening.left"]))
     assert make_pose(face, None, ["angry=0"], None) == face.neutral
     assert parse_presets(["smile", "sad=0.25"]) == {"smile": 1.0, "sad": 0.25}
+
+
+def test_an_emotion_in_part() -> None:
+    assert parse_emotion(None) == (None, 1.0)
+    assert parse_emotion("sad") == ("sad", 1.0)
+    assert parse_emotion("sad=0.5") == ("sad", 0.5)
+    with pytest.raises(MienError, match="--emotion sad=much"):
+        parse_emotion("sad=much")
 
 
 def test_a_pose_from_other_peoples_names() -> None:

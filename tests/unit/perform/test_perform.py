@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from mien.core import Cue, Drawing, MienError, ParameterTable, Pose, Preset, Sound, UnknownNameError
+from mien.core import Cue, Drawing, MienError, ParameterTable, Pose, Preset, RangeError, Sound, UnknownNameError
 from mien.faces.head.table import head_table
 from mien.perform import Performance, Style, perform
 from mien.speech import Speech
@@ -119,6 +119,21 @@ def test_emotion_comes_and_goes_and_its_mouth_makes_room_for_speech() -> None:
     plain = perform(say(), Puppet(), style=STILL)
     more = column(performance, "jaw.rotation", np.array([middle])) - column(plain, "jaw.rotation", np.array([middle]))
     assert more == pytest.approx([0.45 * 8.0])
+
+
+def test_half_an_emotion_moves_half_as_far() -> None:
+    middle = np.array([1.0])
+    whole, half, plain = (
+        column(
+            perform(say(), Puppet(), style=STILL, emotion="smile", emotion_amount=amount),
+            "mouth.expression.left",
+            middle,
+        )
+        for amount in (1.0, 0.5, 0.0)
+    )
+    assert half - plain == pytest.approx(0.5 * (whole - plain))
+    with pytest.raises(RangeError, match="from 0 to 1"):
+        perform(say(), Puppet(), emotion="smile", emotion_amount=1.5)
 
 
 def test_emotion_does_not_touch_what_the_scene_fills_in() -> None:
