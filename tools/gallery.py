@@ -31,6 +31,7 @@ ORDER = (
     "one_light",
     "figure_1972",
     "figure_2_4",
+    "figure_3_1",
     "figure_3_5",
     "figure_3_10",
     "figure_3_12",

@@ -15,6 +15,9 @@ def load(name):
     return module
 
 
-@pytest.mark.parametrize(("tool", "page"), [("parameters", "docs/parameters.md"), ("gallery", "docs/gallery.md")])
-def test_page_is_what_its_tool_makes(tool, page):
-    assert (ROOT / page).read_text(encoding="utf-8") == load(tool).page(), f"run python tools/{tool}.py"
+PAGES = ("parameters", "structure", "gallery")
+
+
+@pytest.mark.parametrize("tool", PAGES)
+def test_page_is_what_its_tool_makes(tool):
+    assert (ROOT / f"docs/{tool}.md").read_text(encoding="utf-8") == load(tool).page(), f"run python tools/{tool}.py"
