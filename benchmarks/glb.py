@@ -68,7 +68,7 @@ def spoken(face: mien.Face, text: str) -> tuple[Floats, Floats, int]:
     """(N, V, 3) m of the frames of a sentence: what glTF misses, and what our face does; and how many frames."""
     performance = mien.say(text, face, scene=PUPPET_SCENE)
     timeline = performance.timeline
-    anatomy = Anatomy(face, resting_pose(check_face(face), timeline, RATE), 1)
+    anatomy = Anatomy(face, resting_pose(check_face(face), timeline, PUPPET_SCENE, RATE), 1)
     base, _ = anatomy.bring_to_rest(anatomy.base)
     fields = read_fields(anatomy)
     weights = record(anatomy, timeline, PUPPET_SCENE, RATE).weights

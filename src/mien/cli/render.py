@@ -47,6 +47,7 @@ def render(
     mien render head --preset smile=0.6 --view side --size 512 -o smile.jpg
     mien render head --au 12=0.8,6=0.5 -o happy.png
     mien render head --random 7 --mix head:ada=0.3 -o someone.png
+    mien render head:ada -o ada.glb
     mien render head --background transparent -o cutout.svg
     mien render head:parke1974 --light parke --diffuse 0.2 --cosine-power 2 -o plate.png
     mien render head --sheet presets -o presets.png

@@ -126,8 +126,8 @@ class Puppet:
             for path, values in (("rotation", recording.turns[:, joint]), ("translation", recording.places[:, joint])):
                 if (np.abs(values - nodes[joint].get(path, NO_TURN)) > STILL).any():
                     add(joint, path, values)
-        extras = {"sound": self.sound} if self.sound else {}
-        return {"name": "performance", "channels": channels, "samplers": samplers, "extras": extras}
+        heard = {"extras": {"sound": self.sound}} if self.sound else {}
+        return {"name": "performance", "channels": channels, "samplers": samplers, **heard}
 
 
 def write_glb(
@@ -147,11 +147,12 @@ def write_glb(
     """
     path = Path(path)
     beside = path.with_suffix(".wav")
-    anatomy = Anatomy(face, resting_pose(check_face(face), timeline, rate), scene.subdivide)
+    anatomy = Anatomy(face, resting_pose(check_face(face), timeline, scene, rate), scene.subdivide)
     puppet = Puppet(anatomy, notes, record(anatomy, timeline, scene, rate), "" if sound is None else beside.name)
+    content = puppet.to_glb()
     with ExitStack() as stack:
         # Both are complete before either takes its place; what names the sound does so last.
-        puppet.write(stack.enter_context(writing(path)))
+        stack.enter_context(writing(path)).write_bytes(content)
         if sound is not None:
             write_wav(sound, stack.enter_context(writing(beside)))
 

@@ -63,7 +63,7 @@ class Meshes:
         self._vertices, self._normals = split_vertices(base.mesh)
         self.changes = self._changes(anatomy, base)
         moved = np.logical_or.reduce([_large(change.moves, STILL_M) for change in self.changes])
-        self._shares = anatomy.shares[-1]
+        self._shares = anatomy.shares
         self._pieces = cut_pieces(base.mesh.topology, self._vertices, self._shares, moved)
         self._materials: dict[Material, Json] = {}
 

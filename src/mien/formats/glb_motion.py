@@ -49,10 +49,11 @@ class Recording:
     places: Floats
 
 
-def resting_pose(face: Rigged, timeline: Timeline, rate: Fraction) -> Pose:
+def resting_pose(face: Rigged, timeline: Timeline, scene: Scene, rate: Fraction) -> Pose:
     """The pose on which a timeline's targets act: what never changes and is out of their reach, else the defaults.
 
-    So a person's colours and proportions are in the mesh, and an expression is in the weights.
+    So a person's colours and proportions are in the mesh, and an expression is in the weights. The eyes look where the
+    scene has them look.
     """
     table = face.parameters
     chunks = [values for _, values, _ in timeline.chunks(table, rate)]
@@ -61,7 +62,7 @@ def resting_pose(face: Rigged, timeline: Timeline, rate: Fraction) -> Pose:
     played = (pose_from(VOCABULARY, {name: 1.0}, face).changed() for name in vocabulary(VOCABULARY).names)
     reached = moved.union(*played)
     keep = (low.min(axis=0) == high.max(axis=0)) & [name not in reached for name in table.names]
-    return Pose(table, np.where(keep, low[0], table.defaults))
+    return fill_rows(face, Pose(table, np.where(keep, low[0], table.defaults)), scene)
 
 
 def record(anatomy: Anatomy, timeline: Timeline, scene: Scene, rate: Fraction) -> Recording:

@@ -49,30 +49,23 @@ class Anatomy:
 
     def __init__(self, face: Face, base: Pose, levels: int) -> None:
         self.face = check_face(face if levels else face.unsubdivided)
-        self.base = base
+        self.base, self.levels = base, levels
         self.names = vocabulary(VOCABULARY).names
         self.rig = self.face.rig(base)
-        self.shares = [self.rig.shares]
         rest = _mesh(self.face, self.rig.rest(base))
-        topology = rest.topology
+        self._rest = rest.points
+        self.shares, topology = self.rig.shares, rest.topology
         for _ in range(levels):
             fine = refine(topology)
-            self.shares.append(fine.matrix.apply(self.shares[-1]))
-            topology = fine.topology
-        self._rest = rest.points
-
-    @property
-    def levels(self) -> int:
-        """How often the mesh is subdivided."""
-        return len(self.shares) - 1
+            self.shares, topology = fine.matrix.apply(self.shares), fine.topology
 
     def take_apart(self, pose: Pose) -> Apart:
         """A pose taken apart, subdivided."""
         mesh = _mesh(self.face, pose)
         motion = self.rig.motion(self._rest, mesh.points)
-        mesh, shares = subdivide(mesh, self.levels), self.shares[-1]
-        normals = None if mesh.normals is None else unturned(mesh.normals, shares, motion)
-        return Apart(replace(mesh, points=unmoved(mesh.points, shares, motion), normals=normals), motion)
+        mesh = subdivide(mesh, self.levels)
+        normals = None if mesh.normals is None else unturned(mesh.normals, self.shares, motion)
+        return Apart(replace(mesh, points=unmoved(mesh.points, self.shares, motion), normals=normals), motion)
 
     def bring_to_rest(self, pose: Pose) -> tuple[Points, Motion]:
         """(V, 3) m, where the points of a pose that is not subdivided are with all joints at rest; how they moved."""

@@ -52,18 +52,18 @@ def timeline(monkeypatch: pytest.MonkeyPatch) -> Timeline:
 
 
 def test_what_targets_can_do_is_left_to_them(timeline: Timeline) -> None:
-    assert resting_pose(SmallPuppet(), timeline, Fraction(10)).changed() == {"nose.size": 1.5}
+    assert resting_pose(SmallPuppet(), timeline, Scene(), Fraction(10)).changed() == {"nose.size": 1.5}
 
 
 def test_what_changes_out_of_reach_rests_at_its_default(timeline: Timeline) -> None:
     track = Track.from_keys([0.0, 1.0], [1.0, 2.0])
     growing = timeline.with_layer(Layer("grow", "replace", {"nose.size": track}))
-    assert resting_pose(SmallPuppet(), growing, Fraction(10)).changed() == {}
+    assert resting_pose(SmallPuppet(), growing, Scene(), Fraction(10)).changed() == {}
 
 
 def test_frames_have_times_weights_and_turns(timeline: Timeline) -> None:
     face, rate = SmallPuppet(), Fraction(24000, 1001)
-    anatomy = Anatomy(face, resting_pose(face, timeline, rate), 0)
+    anatomy = Anatomy(face, resting_pose(face, timeline, Scene(), rate), 0)
     recording = record(anatomy, timeline, Scene(), rate)
     np.testing.assert_allclose(recording.times_s, np.arange(24) * 1001 / 24000, atol=1e-12)
     used = [name for name, weight in zip(anatomy.names, recording.weights.max(axis=0), strict=True) if weight > 1e-3]
