@@ -19,6 +19,7 @@ import numpy as np
 from mien.compiling import kernel
 from mien.core.mesh import Ints, Points
 
+from .angles import soft_step
 from .falloff import bell, ellipse, own_side
 from .measured import Archive, Floats, Measured
 from .moves import Move
@@ -54,6 +55,9 @@ measured bridge alone leaves a slit."""
 
 OVERLAP_FROM = 0.25
 """Share of the measured open mouth from which on they pass one another fully."""
+
+STICKING_M = 0.0005
+"""Lips no farther apart than this stick together, from twice as far on they do not: a hairline is no open mouth."""
 
 UPPER_PART = 0.35
 """Share of a gap between the lips that the upper lip closes; the lower lip does the rest."""
@@ -248,8 +252,6 @@ def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, move
         gaps: of ``Contacts``.
         moves: (V, 3) filled with what contact adds.
     """
-    if closure == 0.0:
-        return
     bridged = closure * jaw_opening
     for v in range(len(points)):
         for axis in range(3):
@@ -258,7 +260,9 @@ def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, move
     pressed = min(jaw_opening / OVERLAP_FROM, 1.0)
     for c in range(len(gaps)):
         upper, lower = numbers[c, 0, 0], numbers[c, 1, 0]
-        upwards, downwards = closure * (1.0 - gaps[c, 4]), closure * gaps[c, 4]
+        slit = points[upper, 1] - points[lower, 1] + gaps[c, 1]
+        closed = max(closure, 1.0 - soft_step((slit - STICKING_M) / STICKING_M)) if slit > 0.0 else closure
+        upwards, downwards = closed * (1.0 - gaps[c, 4]), closed * gaps[c, 4]
         for axis in range(3):
             gap = points[lower, axis] - points[upper, axis] - gaps[c, axis]
             if axis == 1:

@@ -139,7 +139,7 @@ class Poser:
             *(mouth.rows, mouth.moving, mouth.tuck[mouth.rows]),
             *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
-            *(lids.numbers, lids.polar, lids.rest, REST_OPENING),
+            *(lids.numbers, lids.polar, lids.rest, lids.pairs, lids.gaps, REST_OPENING),
             layout.skin,
             *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),

@@ -21,7 +21,7 @@ from .eyes import fill_radii, look_at, place_eye, place_spot
 from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
-from .lids import closing, elevation_deg, move_lids
+from .lids import closing, elevation_deg, meet_lids, move_lids
 from .mouth import close_lips, copy_rows, move_lips, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
@@ -97,14 +97,14 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
         lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), and their shares in ``tuck_lip`` (R,).
         jaw: axis, share, angle of the measured open mouth, residual: of ``open_jaw``.
         contacts: bridge, numbers, shares, gaps: of ``close_lips``.
-        lids: numbers, polar and rest of ``move_lids``; opening at rest.
+        lids: numbers, polar and rest of ``move_lids``; pairs and gaps of ``meet_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
         waves: (2, S), overwritten.
     """
     rows, regions, tuck_share = lips
     axis, share, open_angle_deg, residual = jaw
     bridge, numbers, shares, gaps = contacts
-    lid_numbers, lid_polar, lid_rest, rest_opening = lids
+    lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening = lids
     before_jaw, moves = scratch[0], scratch[1]
     move_lips(skin, rows, regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
     if c[TUCK] != 0.0:
@@ -115,6 +115,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
     close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, numbers, shares, gaps, moves)
     closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
     move_lids(skin, lid_numbers, lid_polar, lid_rest, closed, (elevation_deg(gaze[0, 1]), elevation_deg(gaze[1, 1])))
+    meet_lids(skin, lid_pairs, lid_gaps, closed)
 
 
 @kernel()
@@ -273,7 +274,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:], f8[:,:], f8[:], "  # lips
     "f8[:], f8[:], f8, f8[:,:], "  # jaw
     "f8[:,:], i8[:,:,:], f8[:], f8[:,:], "  # contacts
-    "i8[:,:], f8[:,:], f8[:,:], f8, "  # lids
+    "i8[:,:], f8[:,:], f8[:,:], i8[:,:,:], f8[:,:], f8, "  # lids
     "i8[:], "  # skin
     "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
     "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
@@ -294,7 +295,7 @@ def pose_heads(
     lips, lip_regions, tuck_share,
     jaw_axis, jaw_share, open_angle_deg, jaw_residual,
     bridge, contact_numbers, contact_shares, contact_gaps,
-    lid_numbers, lid_polar, lid_rest, rest_opening,
+    lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening,
     source,
     steps, circle, hexagon, corners,
     lash_index, lash_weight, lash_reach,
@@ -342,7 +343,7 @@ def pose_heads(
         aim_eyes(c, held, kappa_deg, angles, pivot, gaze)
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
         contacts = bridge, contact_numbers, contact_shares, contact_gaps
-        lids = lid_numbers, lid_polar, lid_rest, rest_opening
+        lids = lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening
         deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
         edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]

@@ -1,0 +1,52 @@
+"""What meets stays together and does not pass through: lids and lips."""
+
+import numpy as np
+import pytest
+
+from mien.core import subdivide
+from mien.faces import load_face
+from mien.faces.head import lids
+from mien.faces.head.measured import archive
+from support import in_python, lip_gap_mm
+
+HEAD = load_face("head")
+TIGHT = {"eyelid.squint": 1.0, "cheek.raise": 1.0}
+
+
+def margins(values):
+    """(2, 5) m, heights of the left upper and lower margin where they meet."""
+    points = HEAD.shape(HEAD.neutral.replace(values)).points
+    pairs = [[archive().vertex[f"e0_{station}"] for station in pair] for pair in lids.MEETING_STATIONS]
+    return points[np.array(pairs).T, 1]
+
+
+@pytest.mark.parametrize("more", [{}, TIGHT, {"eyebrow.lower": 1.0}, {"eyebrow.inner_raise": 1.0}, {"nose.wrinkle": 1}])
+def test_shut_lids_meet_as_they_do_at_rest_whatever_the_face_around_them_does(more):
+    upper, lower = margins({"eyelid.opening": 0.0, **more})
+    rest_upper, rest_lower = margins({"eyelid.opening": 0.0})
+    np.testing.assert_allclose(lower - upper, rest_lower - rest_upper, atol=2e-5)
+
+
+@pytest.mark.parametrize("opening", [0.0, 0.2, 0.4, 0.6])
+def test_a_tight_lower_lid_never_passes_the_upper_one(opening):
+    upper, lower = margins({"eyelid.opening": opening, **TIGHT})
+    shut_upper, shut_lower = margins({"eyelid.opening": 0.0})
+    assert (lower - upper - (shut_lower - shut_upper)).max() < 2e-5
+
+
+def test_margins_part_by_half_each_and_their_rings_by_their_shares():
+    points = np.zeros((10, 3))
+    points[5:, 1] = 0.002
+    pairs, gaps = np.array([[[0, 1, 2, 3, 4], [5, 6, 7, 8, 9]]]), np.array([[0.0, 0.0, 0.0, 1.0]])
+    in_python(lids.meet_lids)(points, pairs, gaps, (0.0, 0.0))
+    np.testing.assert_allclose(points[:5, 1], 0.001 * np.array(lids.MEETING_SHARES))
+    np.testing.assert_allclose(points[5:, 1], 0.002 - 0.001 * np.array(lids.MEETING_SHARES))
+
+
+def test_a_hairline_between_the_lips_is_shut_and_a_parted_mouth_is_not():
+    gap = {
+        name: lip_gap_mm(subdivide(HEAD.shape(HEAD.neutral.replace(values)), 2).points)
+        for name, values in (("rest", {}), ("cheeks", {"cheek.raise": 1.0}), ("parted", {"jaw.rotation": 2.0}))
+    }
+    assert gap["cheeks"] < gap["rest"] + 0.1
+    assert gap["parted"] > gap["rest"] + 1.0
