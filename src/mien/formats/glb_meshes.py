@@ -17,8 +17,8 @@ from .obj import corner_normals
 
 Floats = NDArray[np.float64]
 
-STILL_NORMAL = 0.01
-"""A target that changes a normal by less leaves it as it is."""
+STILL_NORMAL, STILL_COLOR = 0.01, 0.004
+"""A target that changes a normal or a colour by less leaves it as it is."""
 
 MOST_JOINTS = 4
 """Joints that may move one vertex."""
@@ -32,6 +32,7 @@ class Change:
         name: of the target.
         moves: (V, 3) m.
         normals: (M, 3), added to those of the base.
+        colors: what is added to the mesh's colours: creases and shadows.
         before: how the joints have moved without it.
         after: how they have moved when it is at its fullest.
     """
@@ -39,6 +40,7 @@ class Change:
     name: str
     moves: Points
     normals: Floats
+    colors: Floats
     before: Motion
     after: Motion
 
@@ -95,7 +97,8 @@ class Meshes:
             earlier = self._normals if before is base else corner_normals(before.mesh)[0]
             normals = corner_normals(after.mesh)[0] - earlier
             moves = after.mesh.points - before.mesh.points
-            changes.append(Change(name, moves, normals, before.motion, after.motion))
+            colors = after.mesh.colors - before.mesh.colors
+            changes.append(Change(name, moves, normals, colors, before.motion, after.motion))
         return changes
 
     def _primitive(self, piece: Piece, origin: Points) -> Json:
@@ -127,9 +130,11 @@ class Meshes:
     def _target(self, piece: Piece, change: Change) -> Json:
         moves = change.moves[self._vertices.vertex[piece.rows]]
         normals = change.normals[self._vertices.normal[piece.rows]]
+        colors = change.colors[self._vertices.color[piece.rows]]
         return {
             "POSITION": self._binary.add_sparse(moves, _large(moves, STILL_M)),
             "NORMAL": self._binary.add_sparse(normals, _large(normals, STILL_NORMAL)),
+            "COLOR_0": self._binary.add_sparse(colors, _large(colors, STILL_COLOR)),
         }
 
     def _material(self, part: Part) -> int:

@@ -126,17 +126,18 @@ class PuppetFile:
             if node.mesh is None:
                 continue
             for primitive in self.gltf.meshes[node.mesh].primitives:
-                points, normals = (
-                    self.accessor(getattr(primitive.attributes, name)).astype(float) for name in ("POSITION", "NORMAL")
+                points, normals, colors = (
+                    self.accessor(getattr(primitive.attributes, name)).astype(float)
+                    for name in ("POSITION", "NORMAL", "COLOR_0")
                 )
                 for weight, target in zip([] if weights is None else weights, primitive.targets or [], strict=False):
                     points = points + weight * self.accessor(target["POSITION"])
                     normals = normals + weight * self.accessor(target["NORMAL"])
+                    colors = colors + weight * self.accessor(target["COLOR_0"])
                 matrices = self._skin(node.skin, primitive, world) if node.skin is not None else world[number][None]
                 points = np.einsum("nab,nb->na", matrices[:, :3, :3] + np.zeros((len(points), 1, 1)), points)
                 points += matrices[:, :3, 3]
                 normals = np.einsum("nab,nb->na", matrices[:, :3, :3] + np.zeros((len(points), 1, 1)), normals)
-                colors = self.accessor(primitive.attributes.COLOR_0).astype(float)
                 triangles = self.accessor(primitive.indices).reshape(-1, 3).astype(np.int64)
                 out.append(Shown(primitive.extras["part"], points, normals, colors, triangles))
         return out

@@ -138,6 +138,18 @@ def test_colours_are_linear_light() -> None:
     np.testing.assert_allclose(hair.colors.mean(axis=0), want.mean(axis=0), rtol=0.05)
 
 
+def test_creases_come_with_their_targets(read: tuple[PuppetFile, Pose, int]) -> None:
+    file, pose, levels = read
+    weights = np.array([float(name == "mouthSmileLeft") for name in file.target_names])
+    skin = next(shown for shown in file.show(weights=weights) if shown.part == "skin")
+    smiling = head_mesh(pose_from("arkit", {"mouthSmileLeft": 1.0}, mien.load_face("head"), pose), levels)
+    topology = smiling.topology
+    want = smiling.colors[topology.triangles[topology.part_of_polygon[topology.polygon_of_triangle] == 0]]
+    np.testing.assert_allclose(skin.colors[skin.triangles], want, atol=0.0041)
+    before = next(shown for shown in file.show() if shown.part == "skin").colors
+    assert np.abs(skin.colors - before).max() > 0.02
+
+
 def test_the_same_puppet_has_the_same_bytes(tmp_path: Path) -> None:
     scene = Scene(subdivide=0)
     for name in ("a.glb", "b.glb"):
