@@ -21,7 +21,7 @@ YOUNG = {
     "mouth.expression": 0.75,
 }
 OLD = {
-    "age": 0.9,
+    "face.age": 0.9,
     "face.sex": 0.9,
     "face.weight": 0.65,
     "nose.length": 0.85,
