@@ -17,7 +17,6 @@ def mend(head: dict[str, np.ndarray], morphs: dict[str, np.ndarray]) -> None:
     sharpen_lips(head)
     smooth_tragus(head)
     smooth_shade(head)
-    level_fringe(head)
 
 
 def relax(head: dict[str, np.ndarray], morphs: dict[str, np.ndarray]) -> None:
@@ -93,15 +92,3 @@ def smooth_shade(head: dict[str, np.ndarray]) -> None:
 def _mouth_bag(head: dict[str, np.ndarray]) -> np.ndarray:
     group = [str(name) for name in head["group_names"]].index("mouth")
     return np.unique(head["quads"][head["groups"] == group])
-
-
-FRINGE = (13, 9)
-
-
-def level_fringe(head: dict[str, np.ndarray]) -> None:
-    """The bonnet's fringe, which hung aslant, made symmetric."""
-    points = head["hair_bonnet_v"].astype(np.float64)
-    fringe = points[-FRINGE[0] * FRINGE[1] :].reshape(*FRINGE, 3)
-    level = 0.5 * (fringe + fringe[::-1] * np.array([-1.0, 1.0, 1.0]))
-    points[-FRINGE[0] * FRINGE[1] :] = level.reshape(-1, 3)
-    head["hair_bonnet_v"] = points

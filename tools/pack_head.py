@@ -22,7 +22,6 @@ from mien.faces.head.arrays import format_arrays
 
 CM = 0.01
 OUT = Path(__file__).parents[1] / "src/mien/faces/head/data"
-HAIR = ("crop", "side_part", "bob", "updo", "afro", "bonnet")
 KEEP_MORPHS = {  # the lids and the gaze have mechanisms of their own, the jaw too (its residual is in the head file)
     "eyeBlink", "eyeLookDown", "eyeLookIn", "eyeLookOut", "eyeLookUp", "jawOpen",
 }  # fmt: skip
@@ -107,10 +106,6 @@ def main(folder: Path) -> None:
     out["collar_points"] = (head["collar_v"] * CM).astype(points)
     out["collar_quads"] = head["collar_q"].astype(np.int16)
     out["collar_band"] = head["collar_kind"] == 0
-    for style in HAIR:
-        out[f"hair_{style}_points"] = (head[f"hair_{style}_v"] * CM).astype(points)
-        out[f"hair_{style}_quads"] = head[f"hair_{style}_q"].astype(np.int16)
-        out[f"hair_{style}_shade"] = head[f"hair_{style}_shade"]
     names = [str(n) for n in morphs["names"]]
     keep = [i for i, n in enumerate(names) if n.rsplit("_", 1)[0] not in KEEP_MORPHS]
     out["morph_names"] = np.array([names[i] for i in keep])

@@ -25,7 +25,6 @@ Floats = NDArray[np.float64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 Kind = Literal["cage", "surface"]
 
-BALD = "bald"
 LID_RINGS = ("hidden", "inner", "margin", "lip", "crease", "fold")
 
 
@@ -76,21 +75,6 @@ class Measured:
 
 
 @dataclass(frozen=True, eq=False)
-class Hair:
-    """A hair style as shells around the skull.
-
-    Attributes:
-        points: (N, 3) m.
-        quads: (F, 4).
-        shade: (N, 2) brightness, and share of the skin's colour at the hairline.
-    """
-
-    points: Points
-    quads: Ints
-    shade: Floats
-
-
-@dataclass(frozen=True, eq=False)
 class Archive:
     """A data file, its arrays converted when first asked for."""
 
@@ -137,24 +121,6 @@ class Archive:
                 raise UnknownNameError("vertex", name, self.vertex)
         return np.array([self.vertex[name] for name in names], dtype=np.int64)
 
-    @cached_property
-    def hair_styles(self) -> tuple[str, ...]:
-        """Names of the hair styles that ship, bald first."""
-        return (BALD, *(n[5:-7] for n in self.arrays if n.startswith("hair_") and n.endswith("_points")))
-
-    def hair(self, style: str) -> Hair:
-        """A hair style; that of the bald has no points.
-
-        Raises:
-            UnknownNameError: there is no such hair style.
-        """
-        if style not in self.hair_styles:
-            raise UnknownNameError("hair style", style, self.hair_styles)
-        if style == BALD:
-            return Hair(np.zeros((0, 3)), np.zeros((0, 4), dtype=np.int64), np.zeros((0, 2)))
-        name = f"hair_{style}"
-        return Hair(self.floats(f"{name}_points"), self.ints(f"{name}_quads"), self.floats(f"{name}_shade"))
-
     @cache  # noqa: B019 - one archive lives as long as the process
     def measured(self, kind: Kind) -> Measured:
         """One of the two position sets."""
@@ -186,16 +152,21 @@ class Archive:
 @cache
 def archive() -> Archive:
     """The data file that ships."""
-    return _read("head")
+    return read_archive("head")
 
 
 @cache
 def conformation() -> Archive:
     """The data file of what people have in different measure, and of expressions of another reference."""
-    return _read("conformation")
+    return read_archive("conformation")
 
 
-def _read(name: str) -> Archive:
+def read_archive(name: str) -> Archive:
+    """A data file by name.
+
+    Raises:
+        MienError: it is not there.
+    """
     place = files(__package__).joinpath(f"data/{name}.arrays")
     if not place.is_file():
         raise MienError(f"{place}: the head's data is missing — was mien installed completely?")

@@ -15,8 +15,9 @@ from . import shades
 from .brows import brow_strips
 from .creases import creased_skin
 from .eyes import CLASSIC, SMOOTH, SPOT_SIDES, eye_polygons, eye_shades
+from .hair import Hair, hair
 from .lashes import CARUNCLE_MIRROR, CARUNCLE_QUADS, lashes
-from .measured import Archive, Floats, Hair, Kind
+from .measured import Archive, Floats, Kind
 
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
 EYE = Material(gloss=0.1, gloss_power=60, round=True)
@@ -26,12 +27,7 @@ TOOTH = Material(gloss=0.22, gloss_power=36)
 BROW = Material(gloss=0.015, gloss_power=10)
 LASH = Material(two_sided=True)
 CLOTH = Material(gloss=0.012, gloss_power=8, subdivide=True)
-HAIR = {
-    "afro": Material(gloss=0.015, gloss_power=8, two_sided=True),
-    "crop": Material(gloss=0.06, gloss_power=20, two_sided=True),
-}
 INSIDE = {"teeth": TOOTH, "gums": WET, "tongue": WET}
-HAIR_DEFAULT = Material(gloss=0.11, gloss_power=22, two_sided=True)
 
 DEEP_TOOTH = (0.10, 0.055, 0.045)
 DEEP_FLESH = (0.10, 0.05, 0.05)
@@ -113,7 +109,7 @@ class Layout:
 
 
 @lru_cache(maxsize=32)
-def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
+def lay_out(archive: Archive, hair_style: str, kind: Kind) -> Layout:
     """The layout of a head with a hair style, for one of the two position sets.
 
     The surface is for classic pictures: eyes of twelve sides, creases by doubled vertices.
@@ -126,7 +122,7 @@ def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
     quads, skin = archive.quads, np.arange(len(archive.mirror))
     if classic:
         quads, skin = creased_skin(archive).quads, creased_skin(archive).source
-    style = archive.hair(hair)
+    style = hair(hair_style)
     rest = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue", "collar")}
     rest["hair"] = style.points
     span: dict[str, slice] = {}
@@ -138,7 +134,7 @@ def lay_out(archive: Archive, hair: str, kind: Kind) -> Layout:
         *_rows_of_an_eye(archive, "right", sides),
         *((name, len(rest[name]), archive.ints(f"{name}_quads"), material) for name, material in INSIDE.items()),
         ("collar", len(rest["collar"]), archive.ints("collar_quads"), CLOTH),
-        ("hair", len(rest["hair"]), style.quads, HAIR.get(hair, HAIR_DEFAULT)),
+        ("hair", len(rest["hair"]), style.quads, style.material),
     ]
     for name, count, numbers, material in rows:
         span[name] = slice(first, first + count)

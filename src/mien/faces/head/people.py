@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mien.core import LoadError, MienError, UnknownNameError
 
+from .hair import hair_styles
 from .head import Head
 from .jaw import SHARES
 from .measured import archive
@@ -60,7 +61,8 @@ def make_head(
     Raises:
         UnknownNameError, RangeError: a choice or value is not there or does not fit.
     """
-    archive().hair(hair)
+    if hair not in hair_styles():
+        raise UnknownNameError("hair style", hair, hair_styles())
     palettes = palette_presets()
     if palette not in palettes:
         raise UnknownNameError("palette", palette, palettes)
