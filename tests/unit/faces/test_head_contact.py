@@ -50,3 +50,14 @@ def test_a_hairline_between_the_lips_is_shut_and_a_parted_mouth_is_not():
     }
     assert gap["cheeks"] < gap["rest"] + 0.1
     assert gap["parted"] > gap["rest"] + 1.0
+
+
+@pytest.mark.parametrize("more", [{"mouth.upper_raise": 1.0}, {"mouth.upper_raise": 0.86, "nose.wrinkle": 0.6}])
+def test_an_upper_lip_rolled_in_and_raised_stays_in_front_of_the_teeth(more):
+    points = HEAD.shape(HEAD.neutral.replace({"mouth.roll_upper": 1.0, **more})).points
+    span, lower = HEAD._layout.span["teeth"], HEAD._layout.lower["teeth"]
+    teeth = points[span][~lower]
+    for ring in ("mh", "m1"):
+        lip = points[archive().vertex[f"{ring}_0"]]
+        front = teeth[(np.abs(teeth[:, 0]) < 0.004) & (teeth[:, 1] < lip[1] + 0.002)]
+        assert lip[2] > front[:, 2].max()

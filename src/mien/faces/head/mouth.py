@@ -59,6 +59,11 @@ OVERLAP_FROM = 0.25
 STICKING_M = 0.0005
 """Lips no farther apart than this stick together, from twice as far on they do not: a hairline is no open mouth."""
 
+TEETH_RINGS = ("mh", "m1", "mb")
+TEETH_ARCH, TEETH_CLEAR_M, TEETH_EDGE_M = 24.0, 0.0012, 0.002
+"""Rings of the upper lip that stay in front of the upper teeth, which lie back by 24 x^2 metres at x metres from the
+middle; how far in front; and over how much of their edge that begins."""
+
 UPPER_PART = 0.35
 """Share of a gap between the lips that the upper lip closes; the lower lip does the rest."""
 
@@ -91,6 +96,7 @@ class MouthRegions:
         upper: of the upper lip's raise.
         tuck: of the lower lip under the teeth.
         contacts: what meets when the lips close.
+        over_teeth: (K,) vertices of the upper lip that stay in front of the teeth.
     """
 
     around: Floats
@@ -100,6 +106,7 @@ class MouthRegions:
     upper: Floats
     tuck: Floats
     contacts: Contacts
+    over_teeth: Ints
 
     @cached_property
     def rows(self) -> Ints:
@@ -132,6 +139,7 @@ def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
         upper=_by_ring(archive, UPPER_RINGS, UPPER_STATIONS),
         tuck=_by_ring(archive, TUCK_RINGS, TUCK_STATIONS),
         contacts=_contacts(archive, points),
+        over_teeth=np.flatnonzero(_by_ring(archive, dict.fromkeys(TEETH_RINGS, 1.0), dict.fromkeys(range(6), 1.0))),
     )
 
 
@@ -273,3 +281,19 @@ def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, move
     for v in range(len(points)):
         for axis in range(3):
             points[v, axis] += moves[v, axis]
+
+
+@kernel()
+def stay_off_teeth(points, over_teeth, edge):
+    """Keep the upper lip of the skin (V, 3) m in front of the upper teeth, whatever rolls it in or lifts it.
+
+    Args:
+        points: changed.
+        over_teeth: of ``MouthRegions``.
+        edge: (2,) m, height of the edge of the front teeth, and how far forward they reach.
+    """
+    for n in range(len(over_teeth)):
+        v = over_teeth[n]
+        front = edge[1] + TEETH_CLEAR_M - TEETH_ARCH * points[v, 0] * points[v, 0]
+        if points[v, 2] < front:
+            points[v, 2] += soft_step((points[v, 1] - edge[0]) / TEETH_EDGE_M) * (front - points[v, 2])

@@ -139,6 +139,7 @@ class Poser:
             *(mouth.rows, mouth.moving, mouth.tuck[mouth.rows]),
             *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
+            *(mouth.over_teeth, tongue.front),
             *(lids.numbers, lids.polar, lids.rest, lids.pairs, lids.gaps, REST_OPENING),
             layout.skin,
             *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),

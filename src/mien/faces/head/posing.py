@@ -22,7 +22,7 @@ from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, meet_lids, move_lids
-from .mouth import close_lips, copy_rows, move_lips, tuck_lip
+from .mouth import close_lips, copy_rows, move_lips, stay_off_teeth, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
@@ -96,14 +96,14 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
         gaze: (2, 3) directions of the eyes.
         lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), and their shares in ``tuck_lip`` (R,).
         jaw: axis, share, angle of the measured open mouth, residual: of ``open_jaw``.
-        contacts: bridge, numbers, shares, gaps: of ``close_lips``.
+        contacts: bridge, numbers, shares, gaps: of ``close_lips``; over_teeth and edge of ``stay_off_teeth``.
         lids: numbers, polar and rest of ``move_lids``; pairs and gaps of ``meet_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
         waves: (2, S), overwritten.
     """
     rows, regions, tuck_share = lips
     axis, share, open_angle_deg, residual = jaw
-    bridge, numbers, shares, gaps = contacts
+    bridge, numbers, shares, gaps, over_teeth, front = contacts
     lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening = lids
     before_jaw, moves = scratch[0], scratch[1]
     move_lips(skin, rows, regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
@@ -113,6 +113,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
     if c[TUCK] != 0.0:
         tuck_lip(skin, before_jaw, rows, tuck_share, c[TUCK])
     close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, numbers, shares, gaps, moves)
+    stay_off_teeth(skin, over_teeth, front)
     closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
     move_lids(skin, lid_numbers, lid_polar, lid_rest, closed, (elevation_deg(gaze[0, 1]), elevation_deg(gaze[1, 1])))
     meet_lids(skin, lid_pairs, lid_gaps, closed)
@@ -273,7 +274,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "f8[:,:], i8[:], f8[:,:], f8[:], "  # who and how
     "i8[:], f8[:,:], f8[:], "  # lips
     "f8[:], f8[:], f8, f8[:,:], "  # jaw
-    "f8[:,:], i8[:,:,:], f8[:], f8[:,:], "  # contacts
+    "f8[:,:], i8[:,:,:], f8[:], f8[:,:], i8[:], f8[:], "  # contacts
     "i8[:,:], f8[:,:], f8[:,:], i8[:,:,:], f8[:,:], f8, "  # lids
     "i8[:], "  # skin
     "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
@@ -294,7 +295,7 @@ def pose_heads(
     controls, parts, balls, kappa_deg,
     lips, lip_regions, tuck_share,
     jaw_axis, jaw_share, open_angle_deg, jaw_residual,
-    bridge, contact_numbers, contact_shares, contact_gaps,
+    bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front,
     lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening,
     source,
     steps, circle, hexagon, corners,
@@ -342,7 +343,7 @@ def pose_heads(
         pivot = held[2, 0] * c[SCALE], held[2, 1] * c[SCALE + 1], held[2, 2] * c[SCALE + 2]
         aim_eyes(c, held, kappa_deg, angles, pivot, gaze)
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
-        contacts = bridge, contact_numbers, contact_shares, contact_gaps
+        contacts = bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front
         lids = lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening
         deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]

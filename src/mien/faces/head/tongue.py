@@ -56,10 +56,12 @@ class Tongue:
     Attributes:
         profile: (N, 3) share of the tip's way; height over the middle of its ring, m; half the height of its ring, m.
         edges: (2, 2) m, y and z of the edges of the front teeth, the upper ones first.
+        front: (2,) m, height of the edge of the upper front teeth, and how far forward they reach.
     """
 
     profile: Floats
     edges: Floats
+    front: Floats
 
 
 def tongue_of(points: Points, upper_teeth: Points, lower_teeth: Points) -> Tongue:
@@ -70,7 +72,8 @@ def tongue_of(points: Points, upper_teeth: Points, lower_teeth: Points) -> Tongu
     middle, half = np.repeat(0.5 * (low + high), SIDES), np.repeat(0.5 * (high - low), SIDES)
     upper, lower = (teeth[np.abs(teeth[:, 0]) < 0.004] for teeth in (upper_teeth, lower_teeth))
     edges = upper[np.argmin(upper[:, 1]), 1:], lower[np.argmax(lower[:, 1]), 1:]
-    return Tongue(np.stack([tip, points[:, 1] - middle, half], axis=1), np.stack(edges))
+    front = np.array([upper[:, 1].min(), upper[:, 2].max()])
+    return Tongue(np.stack([tip, points[:, 1] - middle, half], axis=1), np.stack(edges), front)
 
 
 @kernel()
