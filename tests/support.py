@@ -1,8 +1,11 @@
 """What several tests need: faces, poses of any table, kernels as plain Python, how far a head's lips are apart."""
 
+import importlib.util
+import sys
 from collections.abc import Callable
 from functools import cache
-from types import FunctionType
+from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -15,6 +18,7 @@ from mien.faces import face_names, load_face
 from mien.faces.head.measured import archive
 from mien.faces.head.mouth import CONTACT_STATIONS
 
+ROOT = Path(__file__).parents[1]
 FACE_NAMES = tuple(name for name, _ in face_names())
 
 
@@ -22,6 +26,18 @@ FACE_NAMES = tuple(name for name, _ in face_names())
 def face(name: str) -> Face:
     """An installed face; loaded once a run."""
     return load_face(name)
+
+
+def load_tool(name: str) -> ModuleType:
+    """A program of tools/ as a module."""
+    spec = importlib.util.spec_from_file_location(f"tool_{name}", ROOT / "tools" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    # Its records look themselves up by the name of their module.
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
 
 
 @cache
