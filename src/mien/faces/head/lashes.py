@@ -18,6 +18,9 @@ from .vectors import bind, cross, unit
 LINE_LIFT_M = 0.00012
 """How far the dark line at the margin of a lid stands off the skin."""
 
+SHUT_DROOP = 3.5
+"""How far upper lashes turn down as their lid passes the middle of the eye; else a shut eye shows only their tips."""
+
 
 @dataclass(frozen=True, eq=False)
 class Lashes:
@@ -61,6 +64,8 @@ def place_lashes(index, weight, reach, skin, centre, sign, out):
             up = unit(-rx * ry, -ry * ry + 1.0, -rz * ry)
             ax, ay, az = cross(up, (rx, ry, rz))
             high, wide = reach[n, 1], reach[n, 2]
+            if high > 0.0:
+                high += SHUT_DROOP * min(ry, 0.0)
             dx = rx + up[0] * high + sign * ax * wide
             dy = ry + up[1] * high + sign * ay * wide
             dz = rz + up[2] * high + sign * az * wide
