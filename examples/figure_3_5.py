@@ -14,15 +14,8 @@ EYES = (("with the iris fringe", {}), ("without", {"fringe.size": 0.0, "iris.siz
 def main(out: str = "figure_3_5.jpg") -> None:
     head = mien.load_face("head:ben")
     others = [part.name for part in head.topology.parts if not part.name.startswith(("eye.", "spot."))]
-    scene = mien.Scene(
-        size_px=(760, 320),
-        background=(GROUND, GROUND),
-        at=(0.0, 0.004, 0.075),
-        fov_deg=2.6,
-        subdivide=0,
-        shading="smooth+",
-    )
-    scene = replace(scene.turned(0, 0), target=(0.3, 0.05, 1.0))
+    scene = mien.Scene(size_px=(760, 320), background=(GROUND, GROUND), at=(0.0, 0.004, 0.075), fov_deg=2.4)
+    scene = replace(scene.turned(0, 0), target=(0.18, 0.03, 1.0))
 
     def draw(number: int, scene: mien.Scene) -> mien.Picture:
         return mien.draw(head, EYES[number][1], scene, without=others)

@@ -14,30 +14,22 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
-ORDER = (
-    "hero",
-    "three_views",
-    "shading",
-    "expressions",
-    "presets",
-    "blink",
-    "jaw",
-    "strip",
-    "filmstrip",
-    "curves",
-    "mouth",
-    "gaze",
-    "people",
-    "one_light",
-    "figure_1972",
-    "figure_2_4",
-    "figure_3_1",
-    "figure_3_5",
-    "figure_3_10",
-    "figure_3_12",
-    "figure_3_14",
-    "figure_3_16",
-)
+SECTIONS = {
+    "Faces": ("hero", "three_views", "people", "shading"),
+    "Expression": ("expressions", "presets", "mouth", "gaze"),
+    "Motion": ("blink", "jaw", "strip", "filmstrip", "curves"),
+    "Parke's pictures": (
+        "one_light",
+        "figure_1972",
+        "figure_2_4",
+        "figure_3_1",
+        "figure_3_5",
+        "figure_3_10",
+        "figure_3_12",
+        "figure_3_14",
+        "figure_3_16",
+    ),
+}
 
 
 def load(name: str):
@@ -59,6 +51,18 @@ def picture(name: str) -> str:
     return load(name).main.__defaults__[0]
 
 
+def anchor(title: str) -> str:
+    """What a link to a heading says."""
+    return title.lower().replace(" ", "-").replace("'", "")
+
+
+def entry(name: str) -> list[str]:
+    """Heading, words and picture of an example."""
+    doc = ast.get_docstring(ast.parse((EXAMPLES / f"{name}.py").read_text()))
+    shown = f"![{doc}](gallery/{picture(name)})"
+    return [f"### {heading(name)}", "", doc, "", shown, "", f"[`examples/{name}.py`](../examples/{name}.py)", ""]
+
+
 def page() -> str:
     lines = [
         "# Gallery",
@@ -67,18 +71,11 @@ def page() -> str:
         "and a test compares them. None was touched up.",
         "",
     ]
-    for name in ORDER:
-        doc = ast.get_docstring(ast.parse((EXAMPLES / f"{name}.py").read_text()))
-        lines += [
-            f"## {heading(name)}",
-            "",
-            doc,
-            "",
-            f"![{doc}](gallery/{picture(name)})",
-            "",
-            f"[`examples/{name}.py`](../examples/{name}.py)",
-            "",
-        ]
+    lines += [*(f"- [{title}](#{anchor(title)})" for title in SECTIONS), ""]
+    for title, names in SECTIONS.items():
+        lines += [f"## {title}", ""]
+        for name in names:
+            lines += entry(name)
     lines += (
         [
             "## Mended",
@@ -95,7 +92,7 @@ def page() -> str:
 
 
 def main(names: list[str]) -> None:
-    for name in names or ORDER:
+    for name in names or [name for section in SECTIONS.values() for name in section]:
         start = time.perf_counter()
         load(name).main(str(ROOT / "docs/gallery" / picture(name)))
         print(f"{name}: {time.perf_counter() - start:.1f} s")
