@@ -21,12 +21,16 @@ from mien.core import ParameterTable
 from mien.core.mesh import Ints, Points
 
 from .derived import read_rows
-from .measured import Archive, Floats
+from .measured import Archive, Floats, Kind
 from .moves import Move
 from .table import head_table
 
 TINT = (0.80, 1.00, 1.08)
 """How fast red, green and blue go dark in a fold: light that gets there has met skin before."""
+
+
+SHARPER: Mapping[Kind, float] = {"cage": 1.0, "surface": 0.55}
+"""Share of the dark that is painted: subdivision spreads that of a cage's vertex over what is around it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +92,7 @@ def fold_moves(morphs: Mapping[str, Points]) -> list[Move]:
     return out
 
 
-def folds_of(archive: Archive, table: ParameterTable, skin: Ints) -> Folds:
+def folds_of(archive: Archive, table: ParameterTable, skin: Ints, kind: Kind) -> Folds:
     """The folds of a head whose vertices are copies of the measured vertices ``skin`` (K,)."""
     names = list(dict.fromkeys(row["fold"] for row in read_rows("folds")))
     made = [(table.index[each.parameter], 2 * names.index(each.fold) + each.side) for each in drivers()]
@@ -102,7 +106,7 @@ def folds_of(archive: Archive, table: ParameterTable, skin: Ints) -> Folds:
         for side, vertex in enumerate((left, right)):
             for copy in np.flatnonzero(skin == vertex):
                 places.append((int(copy), 2 * names.index(row["fold"]) + side))
-                dark.append(share * float(row["dark"]))
+                dark.append(share * SHARPER[kind] * float(row["dark"]))
     return Folds(np.array(made), np.array(rules), np.array(places), np.array(dark), 2 * len(names))
 
 

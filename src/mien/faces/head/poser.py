@@ -109,7 +109,7 @@ class Poser:
             *blend_moves(directions(measured.kind)),
         ]
         self._moves: Moves = moves_of(moves, table)
-        self._folds = folds_of(archive, table, layout.skin)
+        self._folds = folds_of(archive, table, layout.skin, measured.kind)
         centres = eyes.balls[:, :3]
         first, behind = layout.span["teeth"].start, layout.span["tongue"].stop
         unbound = layout.join(rest)
