@@ -9,7 +9,7 @@ import mien
 
 HEADS = (
     ("the initial face", {}),
-    ("forehead 1", {"forehead.shape": 1.0}),
+    ("forehead 0", {"forehead.shape": 0.0}),
     ("neck 1", {"neck.shape": 1.0}),
     ("jaw 0.8", {"jaw.width": 0.8}),
     ("chin to mouth 0.85", {"face.chin_to_mouth": 0.85}),
@@ -37,7 +37,7 @@ def main(out: str = "figure_3_16.jpg") -> None:
     def draw(number: int, scene: mien.Scene) -> mien.Picture:
         return mien.draw("head:parke1974", HEADS[number][1], scene)
 
-    draw_plate(draw, plate_scene((320, 370), 33, 0.98, -0.03), 4, [caption for caption, _ in HEADS]).write(out)
+    draw_plate(draw, plate_scene((320, 370), 38, 0.95, -0.032), 4, [caption for caption, _ in HEADS]).write(out)
 
 
 if __name__ == "__main__":

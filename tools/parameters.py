@@ -66,7 +66,8 @@ def entries() -> Iterator[Entry]:
 
 
 def page() -> str:
-    lines, group = [HEADER], ""
+    groups = mien.load_face(FACE).parameters.groups()
+    lines, group = [HEADER, " · ".join(f"[{name}](#{name.replace(' ', '-')})" for name in groups), ""], ""
     for entry in entries():
         row = entry.first
         if row.group != group:
