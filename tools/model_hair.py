@@ -50,7 +50,7 @@ CAPS = {
         locks=24,
         tuft=0.010,
         seed=4,
-        fade=0.8,
+        fade=0.4,
     ),
     "bob": Cap(
         ((0, 0.047), (34, 0.046), (43, 0.036), (52, -0.020), (58, -0.076), (66, -0.088), (110, -0.090), (180, -0.094)),
@@ -64,7 +64,7 @@ CAPS = {
         ragged=0.0012,
     ),
     "updo": Cap(
-        DRAWN, ((0, 0.008), (180, 0.008)), crown=120, taper=0.20, groove=0.0010, locks=30, seed=5, fade=1.0, hang=-30
+        DRAWN, ((0, 0.008), (180, 0.008)), crown=120, taper=0.20, groove=0.0010, locks=30, seed=5, fade=0.7, hang=-30
     ),
     "afro": Cap(
         SHORT,
@@ -129,7 +129,7 @@ CAPS = {
         seed=6,
     ),
     "ponytail": Cap(
-        DRAWN, ((0, 0.009), (180, 0.009)), crown=130, taper=0.20, groove=0.0012, locks=28, seed=8, fade=1.0, hang=-30
+        DRAWN, ((0, 0.009), (180, 0.009)), crown=130, taper=0.20, groove=0.0012, locks=28, seed=8, fade=0.7, hang=-30
     ),
     "pixie": Cap(
         (
@@ -159,7 +159,7 @@ CAPS = {
         fade=0.6,
     ),
     "braids": Cap(
-        DRAWN, ((0, 0.008), (180, 0.008)), part=40, taper=0.20, groove=0.0012, locks=30, seed=10, fade=1.0, hang=-30
+        DRAWN, ((0, 0.008), (180, 0.008)), part=40, taper=0.20, groove=0.0012, locks=30, seed=10, fade=0.7, hang=-30
     ),
     "ring": Cap(
         (

@@ -26,13 +26,14 @@ from .jaw import JawKind, remake_shares
 from .lashes import lashes
 from .measured import Archive, Floats, Kind, Measured, archive
 from .mouth import mouth_regions
-from .parts import Layout, lay_out
+from .parts import Layout, Styles, lay_out
 from .poser import Eyes, Jaw, Poser
 from .presets import head_presets
 from .residual import Residual, apply_residual, eyes_of
 from .rig import head_rig
 from .table import head_table
 from .units import DEG
+from .wear import NONE
 
 SURFACE_BROW_LIFT_M = 0.001
 
@@ -44,6 +45,8 @@ class Head:
     Attributes:
         name: its address.
         hair: one of the styles that ship.
+        beard: one of the beards that ship, or none.
+        glasses: of those that ship, or none.
         values: what this person has instead of the table's defaults (colours mostly).
         kind: cage for subdivided pictures, surface for classic ones.
         residual: points of the person's own, beyond the parameters.
@@ -58,6 +61,8 @@ class Head:
     jaw: JawKind = "fitted"
     doc: str = ""
     residual: Residual | None = None
+    beard: str = NONE
+    glasses: str = NONE
     family: str = field(default="head", init=False)
     _palettes: OrderedDict[bytes, Floats] = field(default_factory=OrderedDict, init=False, repr=False)
 
@@ -149,7 +154,7 @@ class Head:
 
     @cached_property
     def _layout(self) -> Layout:
-        return lay_out(self._archive, self.hair, self.kind)
+        return lay_out(self._archive, Styles(self.hair, self.beard, self.glasses), self.kind)
 
     @cached_property
     def _poser(self) -> Poser:

@@ -18,6 +18,7 @@ from .eyes import CLASSIC, SMOOTH, SPOT_SIDES, eye_polygons, eye_shades
 from .hair import Hair, hair
 from .lashes import CARUNCLE_MIRROR, CARUNCLE_QUADS, lashes
 from .measured import Archive, Floats, Kind
+from .wear import NONE, Beard, Glasses, beard, glasses
 
 SKIN = Material(gloss=0.055, gloss_power=14, subdivide=True)
 EYE = Material(gloss=0.1, gloss_power=60, round=True)
@@ -25,6 +26,8 @@ SPOT = Material(lit=False)
 WET = Material(gloss=0.035, gloss_power=20)
 TOOTH = Material(gloss=0.22, gloss_power=36)
 BROW = Material(gloss=0.015, gloss_power=10)
+BEARD = Material(gloss=0.02, gloss_power=10, subdivide=True)
+FRAME = Material(gloss=0.25, gloss_power=40)
 LASH = Material(two_sided=True)
 CLOTH = Material(gloss=0.012, gloss_power=8, subdivide=True)
 INSIDE = {"teeth": TOOTH, "gums": WET, "tongue": WET}
@@ -45,6 +48,8 @@ class Layout:
         rest: part -> (N, 3) m of the parts that are modelled in place.
         lower: part -> (N,) whether a vertex belongs to the lower jaw.
         hair: its style.
+        beard: its style.
+        glasses: their style.
         sides: of the pupil and of every ring of an eye.
         skin: (N,) measured vertex of each vertex of the skin, which doubles some along creases.
     """
@@ -55,6 +60,8 @@ class Layout:
     rest: Mapping[str, Points]
     lower: Mapping[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]
     hair: Hair
+    beard: Beard
+    glasses: Glasses
     sides: int
     skin: Ints
 
@@ -62,6 +69,7 @@ class Layout:
     def mirror(self) -> Ints:
         """(V,) vertex in the mirror, -1 for hair."""
         mirror = _mirror(self.span, self.rest, self.topology.vertex_count, self.sides)
+        mirror[self.span["beard"]] = self.span["beard"].start + self.beard.twin
         classic = self.sides == CLASSIC
         mirror[self.span["skin"]] = creased_skin(self.archive).mirror if classic else self.archive.mirror
         return mirror
@@ -79,7 +87,9 @@ class Layout:
         of = partial(shades.color_of, pose)
         band = archive.ints("collar_quads")[archive.ints("collar_band").astype(bool)]
         out = {
-            "skin": shades.blend(self._region_weights(), shades.regions(pose)) * shades.skin_shade(archive)[self.skin],
+            "skin": shades.tinted(self._bare_skin(pose), of("hair"), self.beard.tint[self.skin]),
+            "beard": shades.hair_color(pose, self.beard.shade),
+            "glasses": np.tile(self.glasses.color, (len(self.glasses.points), 1)),
             "teeth": of("tooth")
             * shades.tooth_light(archive)
             * shades.depth_shade(rest["teeth"], 0.086, 0.03, DEEP_TOOTH),
@@ -98,6 +108,11 @@ class Layout:
         }
         return {**out, **{f"{name}.{side}": rgb for side in ("left", "right") for name, rgb in both_sides.items()}}
 
+    def _bare_skin(self, pose: Pose) -> Floats:
+        """(N, 3) linear RGB of the shaven skin."""
+        lit = shades.skin_shade(self.archive)[self.skin]
+        return shades.blend(self._region_weights(), shades.regions(pose)) * lit
+
     def _region_weights(self) -> Floats:
         """(N, R) weights of the skin's colour regions; at a crease around the lips each side has its own colour."""
         weights = self.archive.floats("region_weights")[self.skin]
@@ -108,23 +123,32 @@ class Layout:
         return weights
 
 
+@dataclass(frozen=True)
+class Styles:
+    """What a head is worn with, by name."""
+
+    hair: str
+    beard: str = NONE
+    glasses: str = NONE
+
+
 @lru_cache(maxsize=32)
-def lay_out(archive: Archive, hair_style: str, kind: Kind) -> Layout:
-    """The layout of a head with a hair style, for one of the two position sets.
+def lay_out(archive: Archive, styles: Styles, kind: Kind) -> Layout:
+    """The layout of a head with hair, beard and glasses, for one of the two position sets.
 
     The surface is for classic pictures: eyes of twelve sides, creases by doubled vertices.
 
     Raises:
-        UnknownNameError: there is no such hair style.
+        UnknownNameError: there is no such style.
     """
     classic = kind == "surface"
     sides = CLASSIC if classic else SMOOTH
     quads, skin = archive.quads, np.arange(len(archive.mirror))
     if classic:
         quads, skin = creased_skin(archive).quads, creased_skin(archive).source
-    style = hair(hair_style)
+    style, grown, worn = hair(styles.hair), beard(styles.beard), glasses(styles.glasses)
     rest = {name: archive.floats(f"{name}_points") for name in ("teeth", "gums", "tongue", "collar")}
-    rest["hair"] = style.points
+    rest |= {"hair": style.points, "glasses": worn.points}
     span: dict[str, slice] = {}
     polygons: list[tuple[str, Ints, Material]] = []
     first = 0
@@ -132,9 +156,11 @@ def lay_out(archive: Archive, hair_style: str, kind: Kind) -> Layout:
         ("skin", len(skin), quads, SKIN),
         *_rows_of_an_eye(archive, "left", sides),
         *_rows_of_an_eye(archive, "right", sides),
+        ("beard", len(grown.index), grown.quads, BEARD),
         *((name, len(rest[name]), archive.ints(f"{name}_quads"), material) for name, material in INSIDE.items()),
         ("collar", len(rest["collar"]), archive.ints("collar_quads"), CLOTH),
         ("hair", len(rest["hair"]), style.quads, style.material),
+        ("glasses", len(rest["glasses"]), worn.quads, FRAME),
     ]
     for name, count, numbers, material in rows:
         span[name] = slice(first, first + count)
@@ -142,7 +168,7 @@ def lay_out(archive: Archive, hair_style: str, kind: Kind) -> Layout:
             polygons.append((name, numbers + first, material))
         first += count
     lower = {name: archive.ints(f"{name}_lower").astype(bool) for name in ("teeth", "gums")}
-    return Layout(archive, build_topology(first, polygons), span, rest, lower, style, sides, skin)
+    return Layout(archive, build_topology(first, polygons), span, rest, lower, style, grown, worn, sides, skin)
 
 
 def _rows_of_an_eye(archive: Archive, side: str, sides: int) -> list[tuple[str, int, Ints, Material]]:
@@ -171,7 +197,7 @@ def _mirror(span: Mapping[str, slice], rest: Mapping[str, Points], count: int, s
     _pair(mirror, span, "caruncle", np.array(CARUNCLE_MIRROR))
     for name in ("lash", "brow"):
         _pair(mirror, span, name, _numbers(span[f"{name}.left"]))
-    for name in (*INSIDE, "collar"):
+    for name in (*INSIDE, "collar", "glasses"):
         mirror[span[name]] = span[name].start + _nearest(rest[name])
     return mirror
 

@@ -16,14 +16,15 @@ from .jaw import SHARES
 from .measured import archive
 from .palettes import palette_presets
 from .residual import Residual, read_residual
+from .wear import NONE, beard_styles, glasses_styles
 
 FORMAT, VERSION = "mien-face", 1
-KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc", "residual"}
+KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc", "residual", "beard", "glasses"}
 
 
 @cache
 def people() -> Mapping[str, Mapping[str, str]]:
-    """Rows of ``data/people.json``: name -> hair, palette, jaw, doc."""
+    """Rows of ``data/people.json``: name -> hair, beard, glasses, palette, jaw, doc."""
     text = files(__package__).joinpath("data/people.json").read_text(encoding="utf-8")
     rows: dict[str, dict[str, str]] = json.loads(text)
     return rows
@@ -44,32 +45,40 @@ def shipped_head(name: str) -> Head:
     if name not in people():
         raise UnknownNameError("head", name, people())
     row = people()[name]
-    return make_head(address(name), row["hair"], row["palette"], {}, row.get("jaw", "fitted"), row["doc"])
+    return make_head(address(name), {**_DEFAULTS, **row}, {})
 
 
 def make_head(
-    name: str,
-    hair: str,
-    palette: str,
-    values: Mapping[str, float],
-    jaw: str,
-    doc: str,
-    residual: Residual | None = None,
+    name: str, choices: Mapping[str, str], values: Mapping[str, float], residual: Residual | None = None
 ) -> Head:
     """A head from choices by name; ``values`` win over the palette. Mistakes show here, not in the first picture.
+
+    ``choices`` are hair, beard, glasses, palette, jaw and doc.
 
     Raises:
         UnknownNameError, RangeError: a choice or value is not there or does not fit.
     """
-    if hair not in hair_styles():
-        raise UnknownNameError("hair style", hair, hair_styles())
     palettes = palette_presets()
-    if palette not in palettes:
-        raise UnknownNameError("palette", palette, palettes)
-    if jaw not in SHARES:
-        raise UnknownNameError("jaw", jaw, SHARES)
-    kind = next(kind for kind in SHARES if kind == jaw)
-    head = Head(name, hair, {**palettes[palette].values, **values}, jaw=kind, doc=doc, residual=residual)
+    known = {
+        "hair": ("hair style", hair_styles()),
+        "beard": ("beard", beard_styles()),
+        "glasses": ("glasses", glasses_styles()),
+        "palette": ("palette", palettes),
+        "jaw": ("jaw", SHARES),
+    }
+    for key, (kind, names) in known.items():
+        if choices[key] not in names:
+            raise UnknownNameError(kind, choices[key], names)
+    head = Head(
+        name,
+        choices["hair"],
+        {**palettes[choices["palette"]].values, **values},
+        jaw=next(jaw for jaw in SHARES if jaw == choices["jaw"]),
+        doc=choices["doc"],
+        residual=residual,
+        beard=choices["beard"],
+        glasses=choices["glasses"],
+    )
     _ = head.parameters
     return head
 
@@ -99,15 +108,22 @@ def read_head(path: Path) -> Head:
         texts = {key: _text(record, key, default) for key, default in _DEFAULTS.items()}
         beside = _text(record, "residual", "")
         residual = read_residual(path.parent / beside, len(archive().mirror)) if beside else None
-        choices = (texts["hair"], texts["palette"], _values(record), texts["jaw"], texts["doc"])
-        return make_head(str(path), *choices, residual)
+        return make_head(str(path), texts, _values(record), residual)
     except LoadError:
         raise
     except MienError as error:
         raise LoadError(path, str(error)) from None
 
 
-_DEFAULTS = {"name": "", "hair": "side_part", "palette": "beige", "jaw": "fitted", "doc": ""}
+_DEFAULTS = {
+    "name": "",
+    "hair": "side_part",
+    "beard": NONE,
+    "glasses": NONE,
+    "palette": "beige",
+    "jaw": "fitted",
+    "doc": "",
+}
 
 
 def _text(record: Mapping[str, object], key: str, default: str) -> str:

@@ -132,7 +132,10 @@ class Poser:
         tongue = tongue_of(rest["tongue"], rest["teeth"][~below], rest["teeth"][below])
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
+        grown = layout.beard
+        share[layout.span["beard"]] = neck_share(measured.points)[grown.index[:, 0]]
         share[layout.span["collar"]] = 0.0
+        bound = np.concatenate([np.concatenate(strips.index).ravel(), grown.index.ravel()])
         self._constants = (
             np.array([*starts, layout.span["tongue"].stop], dtype=np.int64),
             *(np.concatenate([eyes.balls, [(*PIVOT, 0.0)]]), eyes.kappa_deg),
@@ -145,7 +148,8 @@ class Poser:
             *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
-            *(archive.quads, *_polygons_around(archive.quads, np.concatenate(strips.index), len(measured.points))),
+            *(grown.index, np.ones(grown.index.shape), grown.offset),
+            *(archive.quads, *_polygons_around(archive.quads, bound, len(measured.points))),
             *(
                 np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]),
                 *(tongue.profile, tongue.edges, jaw.chin),

@@ -49,12 +49,12 @@ TURN, NOD, TILT, FORWARD, SCALE, TARGET, LIGHT, VIEWER, CORNERS = *range(12, 17)
 OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(36, 54, 2)
 """Columns of ``CONTROLS``; of a pair, of a place, or of the tongue's tip the first."""
 
-EYE, SPOTS, CARUNCLE, LASH, BROW, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13
+EYE, SPOTS, CARUNCLE, LASH, BROW, BEARD, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13, 14
 """Where the first vertex of each part stands in a row of part starts; of a pair, the left one."""
 
 PARTS = (
     *(f"{name}.{side}" for name in ("eye", "spot", "caruncle", "lash", "brow") for side in ("left", "right")),
-    *("teeth", "gums", "tongue"),
+    *("beard", "teeth", "gums", "tongue"),
 )
 
 RED = 3
@@ -151,8 +151,8 @@ def place_eyes(c, skin, gaze, parts, balls, rings, angles, pivot, radii, points,
 
 
 @kernel()
-def place_hairs(c, skin, parts, balls, lashes, brows, under, normals, points):
-    """Fill the lashes and brows of ``points`` (V, 3) m.
+def place_hairs(c, skin, parts, balls, lashes, brows, beard, under, normals, points):
+    """Fill the lashes, brows and beard of ``points`` (V, 3) m.
 
     Args:
         c: a row of controls.
@@ -161,6 +161,7 @@ def place_hairs(c, skin, parts, balls, lashes, brows, under, normals, points):
         balls: (2, 4) m, centre and radius.
         lashes: index, weight, reach (2, K, B) of ``place_lashes``.
         brows: index, weight (2, K, B), offset of ``place_brows``.
+        beard: index, weight (K, 1), offset of ``place_brows``.
         under: quads, vertices, starts, columns of ``sum_normals``.
         normals: (S, 3), overwritten.
         points: filled.
@@ -169,6 +170,8 @@ def place_hairs(c, skin, parts, balls, lashes, brows, under, normals, points):
     brow_index, brow_weight, offset = brows
     quads, vertices, starts, columns = under
     sum_normals(skin, quads, vertices, starts, columns, normals)
+    beard_index, beard_weight, beard_offset = beard
+    place_brows(beard_index, beard_weight, beard_offset, skin, normals, points[parts[BEARD] :])
     for side in range(2):
         lash, brow = points[parts[LASH + side] :], points[parts[BROW + side] :]
         place_lashes(index[side], weight[side], reach[side], skin, balls[side], 1.0 - 2.0 * side, lash)
@@ -280,6 +283,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
     "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
     "i8[:,:,:], f8[:,:,:], f8[:], "  # brows
+    "i8[:,:], f8[:,:], f8[:], "  # beard
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
     "i8, f8[:], "  # lip's edge, neck
@@ -301,6 +305,7 @@ def pose_heads(
     steps, circle, hexagon, corners,
     lash_index, lash_weight, lash_reach,
     brow_index, brow_weight, brow_offset,
+    beard_index, beard_weight, beard_offset,
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tongue_profile, tooth_edges, chin,
     lip_edge, neck_share,
@@ -357,8 +362,9 @@ def pose_heads(
             run[i] = rest[i]
         place_eyes(c, skin, gaze, parts, held, (steps, circle, hexagon, corners), angles, pivot, radii, out, around)
         lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
+        beard = beard_index, beard_weight, beard_offset
         under = quads, brow_vertices, brow_starts, brow_quads
-        place_hairs(c, skin, parts, held, lashes, brows, under, scratch[0], out)
+        place_hairs(c, skin, parts, held, lashes, brows, beard, under, scratch[0], out)
         place_inside(c, parts, carried, (tongue_profile, tooth_edges), jaw_axis, chin, edges, out)
         shape_points(out[parts[TEETH] : parts[END]], shape, inside_starts, inside_rows, inside_weights)
         if frame < len(colors):

@@ -60,6 +60,11 @@ def blend(weights: Floats, colors: Floats) -> Floats:
     return out
 
 
+def tinted(colors: Floats, rgb: Floats, share: Floats) -> Floats:
+    """(N, 3) colours (N, 3) with a share (N,) of one (3,)."""
+    return colors + share[:, None] * (rgb - colors)
+
+
 def depth_shade(points: Points, from_z_m: float, over_m: float, tint: tuple[float, float, float]) -> Floats:
     """(N, 3) factor that darkens what lies deep in the mouth, towards a tint."""
     deep = np.clip((from_z_m - points[:, 2]) / over_m, 0.0, 1.0)[:, None]
