@@ -64,7 +64,7 @@ CAPS = {
         ragged=0.0012,
     ),
     "updo": Cap(
-        DRAWN, ((0, 0.008), (180, 0.008)), crown=120, taper=0.20, groove=0.0010, locks=30, seed=5, fade=0.7, hang=-30
+        DRAWN, ((0, 0.008), (180, 0.008)), crown=104, taper=0.20, groove=0.0010, locks=30, seed=5, fade=0.7, hang=14
     ),
     "afro": Cap(
         SHORT,
@@ -129,7 +129,7 @@ CAPS = {
         seed=6,
     ),
     "ponytail": Cap(
-        DRAWN, ((0, 0.009), (180, 0.009)), crown=130, taper=0.20, groove=0.0012, locks=28, seed=8, fade=0.7, hang=-30
+        DRAWN, ((0, 0.009), (180, 0.009)), crown=106, taper=0.20, groove=0.0012, locks=28, seed=8, fade=0.7, hang=14
     ),
     "pixie": Cap(
         (
@@ -159,7 +159,7 @@ CAPS = {
         fade=0.6,
     ),
     "braids": Cap(
-        DRAWN, ((0, 0.008), (180, 0.008)), part=40, taper=0.20, groove=0.0012, locks=30, seed=10, fade=0.7, hang=-30
+        DRAWN, ((0, 0.008), (180, 0.008)), part=40, taper=0.20, groove=0.0012, locks=30, seed=10, fade=0.7, hang=14
     ),
     "ring": Cap(
         (
