@@ -92,3 +92,10 @@ def test_people_are_many_and_varied():
     assert len({row["hair"] for row in rows_of}) >= 10
     assert len({row["palette"] for row in rows_of}) >= 10
     assert len({row.get("beard", "none") for row in rows_of}) >= 4
+
+
+def test_beard_goes_with_the_neck_as_the_skin_beneath_it_does():
+    layout, shares = BEARDED._layout, BEARDED.rig(Pose.neutral(BEARDED.parameters)).shares
+    skin, own = shares[layout.beard.index[:, 0]], shares[layout.span["beard"]]
+    np.testing.assert_array_equal(own, skin)
+    assert 0.0 < own.max(axis=1).min() < 1.0

@@ -66,8 +66,10 @@ def _shares(layout: Layout, measured: Points) -> Floats:
     body, head, jaw, *_ = np.eye(len(JOINTS))
     shares[:] = head
     shares[layout.span["collar"]] = body
-    neck = neck_share(measured)[layout.skin, None]
-    shares[layout.span["skin"]] = neck * head + (1.0 - neck) * body
+    neck = neck_share(measured)[:, None]
+    on_neck = neck * head + (1.0 - neck) * body
+    shares[layout.span["skin"]] = on_neck[layout.skin]
+    shares[layout.span["beard"]] = on_neck[layout.beard.index[:, 0]]
     shares[layout.span["tongue"]] = jaw
     for name in ("teeth", "gums"):
         shares[_numbers(layout.span[name])[layout.lower[name]]] = jaw
