@@ -42,15 +42,13 @@ def page() -> str:
 
 
 def tree() -> list[str]:
-    """Lines of a Mermaid chart: a box for each part, and one for what changes it."""
+    """Lines of a Mermaid chart: a box for each part, with what changes it."""
     lines = []
     for node in nodes():
-        name = node[-1]
-        lines.append(f'    {name}["{name}"]')
+        texts = [f"{how}: {', '.join(titles)}" for how, titles in titles_by_mechanism(node).items()]
+        lines.append(f'    {node[-1]}["{"<br>".join((f"<b>{node[-1]}</b>", *texts))}"]')
         if len(node) > 1:
-            lines.append(f"    {node[-2]} --> {name}")
-        if texts := [f"{how}: {', '.join(titles)}" for how, titles in titles_by_mechanism(node).items()]:
-            lines += [f'    {name}_by("{"<br>".join(texts)}")', f"    {name} --- {name}_by"]
+            lines.append(f"    {node[-2]} --> {node[-1]}")
     return lines
 
 
