@@ -18,6 +18,8 @@ from PIL import Image
 
 import mien
 from mien.core import Parameter, Pose, exact, fill_rows, subdivide
+from mien.faces.head.head import Head
+from mien.faces.head.people import shipped_head
 from mien.faces.head.regions import weigh_region
 from mien.faces.head.table import conformation_rows
 from mien.formats.face_sheets import SCENE_ROWS, moving_rows
@@ -38,7 +40,6 @@ STRONG = 0.6
 
 SIZE_PX, SCALE, QUALITY = 168, 2, 80
 TINT = np.array([0.95, 0.20, 0.02])
-FACE, BALD = "head", "head:tom"
 CHANNELS = (".red", ".green", ".blue")
 
 
@@ -51,11 +52,17 @@ class Entry:
 
     @property
     def first(self) -> Parameter:
-        return mien.load_face(FACE).parameters[self.rows[0]]
+        return person().parameters[self.rows[0]]
+
+
+@cache
+def person(hair: str = "bald") -> Head:
+    """The default person with other hair."""
+    return replace(shipped_head("head"), hair=hair)
 
 
 def entries() -> Iterator[Entry]:
-    table = mien.load_face(FACE).parameters
+    table = person().parameters
     together = {**moving_rows(table), **{row.name: (row.name,) for row in table if row.name.startswith(SCENE_ROWS)}}
     for rows in table.groups().values():
         names = {row.name for row in rows}
@@ -66,7 +73,7 @@ def entries() -> Iterator[Entry]:
 
 
 def page() -> str:
-    groups = mien.load_face(FACE).parameters.groups()
+    groups = person().parameters.groups()
     lines, group = [HEADER, " · ".join(f"[{name}](#{name.replace(' ', '-')})" for name in groups), ""], ""
     for entry in entries():
         row = entry.first
@@ -89,7 +96,7 @@ def page() -> str:
 
 
 def _range(entry: Entry) -> str:
-    row, table = entry.first, mien.load_face(FACE).parameters
+    row, table = entry.first, person().parameters
     if row.name.endswith(CHANNELS):
         rest = "".join(f"{_srgb_byte(table[name].default):02x}" for name in entry.rows)
         return f"{row.low:g} … {row.high:g} {row.unit} · at rest `#{rest}`"
@@ -114,7 +121,7 @@ def _moved_mm(entry: Entry, value: float) -> float:
 
 
 def _points(entry: Entry, value: float) -> np.ndarray:
-    face = mien.load_face(BALD)
+    face = person()
     return face.shape(face.neutral.replace(dict.fromkeys(entry.rows, value))).points
 
 
@@ -138,7 +145,7 @@ def view_of(name: str) -> dict[str, str]:
 def strip(entry: Entry) -> bytes:
     """JPEG with the region of a shape, then the ends of a range and the rest."""
     view, row = view_of(entry.name), entry.first
-    face = mien.load_face(view["face"])
+    face = person(view["hair"])
     held = dict(text.split("=") for text in view["with"].split())
     base = face.neutral.replace({name: float(value) for name, value in held.items()})
     scene = _scene(view)
@@ -172,7 +179,7 @@ def _weights(entry: Entry, base: Pose) -> np.ndarray | None:
     shape = next((row for row in conformation_rows() if row["name"] == entry.name), None)
     if shape is None:
         return None
-    face = mien.load_face(BALD)
+    face = person()
     if shape["region"] and shape["kind"] != "field":
         points = face.shape(face.neutral).points
         sides = (points, points * (-1.0, 1.0, 1.0)) if shape["sides"] else (points,)

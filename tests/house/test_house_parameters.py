@@ -26,7 +26,7 @@ def pixels(path):
 
 def test_every_parameter_is_shown_once():
     rows = [row for entry in ENTRIES.values() for row in entry.rows]
-    assert sorted(rows) == sorted(TOOL.mien.load_face("head").parameters.names)
+    assert sorted(rows) == sorted(TOOL.person().parameters.names)
 
 
 def test_every_row_has_its_pictures_and_every_picture_its_row():
@@ -57,7 +57,7 @@ def test_pictures_are_those_that_the_tool_makes(name, tmp_path):
 @pytest.mark.parametrize("row", conformation_rows(), ids=lambda row: row["name"])
 def test_a_shape_is_tinted_where_it_acts_and_not_elsewhere(row):
     entry = ENTRIES[row["name"]]
-    face = TOOL.mien.load_face(TOOL.BALD)
+    face = TOOL.person()
     weights = TOOL._weights(entry, face.neutral)
     assert weights.min() >= 0.0
     assert weights.max() <= 1.0
