@@ -32,7 +32,7 @@ LASH = Material(two_sided=True)
 CLOTH = Material(gloss=0.012, gloss_power=8, subdivide=True)
 INSIDE = {"teeth": TOOTH, "gums": WET, "tongue": WET}
 
-DEEP_TOOTH = (0.10, 0.055, 0.045)
+DEEP_TOOTH = (0.34, 0.19, 0.15)
 DEEP_FLESH = (0.10, 0.05, 0.05)
 """What light is left deep in the mouth: it is lit as if it lay in the open, so it must be painted dark."""
 
@@ -92,7 +92,7 @@ class Layout:
             "glasses": np.tile(self.glasses.color, (len(self.glasses.points), 1)),
             "teeth": of("tooth")
             * shades.tooth_light(archive)
-            * shades.depth_shade(rest["teeth"], 0.086, 0.03, DEEP_TOOTH),
+            * shades.depth_shade(rest["teeth"], 0.088, 0.042, DEEP_TOOTH),
             "gums": of("gum") * shades.depth_shade(rest["gums"], 0.092, 0.024, DEEP_FLESH),
             "tongue": of("tongue") * shades.depth_shade(rest["tongue"], 0.088, 0.034, DEEP_FLESH),
             "collar": shades.collar_color(pose, len(archive.floats("collar_points")), band),

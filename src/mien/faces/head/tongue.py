@@ -30,7 +30,7 @@ SIDES = 16
 JAW_SHARE, SHIFT_SHARE = 0.82, 0.7
 """How far the tongue goes with the jaw's rotation, and with its sideways and forward moves."""
 
-BEHIND_M, TO_LIPS_M, BEYOND_M = 0.0015, 0.0085, 0.0120
+BEHIND_M, TO_LIPS_M, BEYOND_M = 0.0015, 0.0085, 0.0240
 """Ways of the tip: up to the teeth, on to the lips, and out over the lower one."""
 
 GAP_M, WIDE_M = 0.0006, 0.002
