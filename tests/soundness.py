@@ -1,4 +1,4 @@
-"""What must hold for a head in any pose: measures of how far it is from breaking, in millimetres or in counts."""
+"""How far a head in a pose is from breaking: measures in millimetres, degrees or counts."""
 
 from __future__ import annotations
 
@@ -6,17 +6,26 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from mien.core import Mesh, Pose
+from mien.core import Mesh, Pose, Scene
 from mien.core.mesh import Ints, Points
 from mien.core.subdivision import refine
 from mien.faces.head import Head
 from mien.faces.head.measured import LID_RINGS, archive
+from mien.render import Renderer
 
 MM = 1000.0
-UPPER, LOWER = range(0, 6), range(5, 10)
-OUTER_RINGS = ("m0", "mh", "m1", "mb", "m2")
-HIDDEN_GROUPS = ("mouth", "nostril")
+HIDDEN_GROUPS = ("mouth", "nostril", "lidin")
+INWARDS = ("mk", "mj", "mi", "m0"), ("ei", "ej", "e0")
+"""Rings of the lips and of the lids from inside to the edge: what stands before these need not have come through."""
+
+RIGID = ("head.turn", "head.nod", "head.tilt", "head.forward")
+"""Moves of the whole head on its neck: measures are taken without them."""
+
+
+SPACING_M = 0.004
+"""What stands above a vertex of the refined skin is less than this aside of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +42,27 @@ class Posed:
     @cached_property
     def fine(self) -> Points:
         """(V', 3) m of the refined skin."""
-        return refined(self.head).matrix.apply(self.mesh.points)
+        return _refiner(1).refine(self.mesh).points
+
+    @cached_property
+    def finest(self) -> Points:
+        """(V'', 3) m of the skin refined twice."""
+        return _refiner(2).refine(self.mesh).points
+
+    @cached_property
+    def normals(self) -> Points:
+        """(V', 3) unit normals of the refined skin; 0 where there is none."""
+        quads = skin_quads(self.head)
+        total = spread(quad_normals(self.fine, quads), quads, len(self.fine))
+        return total / np.maximum(np.linalg.norm(total, axis=1), 1e-15)[:, None]
+
+    def nearest_skin(self, points: Points) -> Ints:
+        """(N,) refined vertices of the skin."""
+        return skin_rows(self.head)[self._tree.query(points)[1]]
+
+    @cached_property
+    def _tree(self) -> cKDTree:
+        return cKDTree(self.fine[skin_rows(self.head)], balanced_tree=False, compact_nodes=False)
 
     def part(self, name: str) -> Points:
         """(N, 3) m, the points of a part."""
@@ -41,8 +70,8 @@ class Posed:
 
 
 @cache
-def refined(head: Head):
-    return refine(head.topology)
+def _refiner(steps: int) -> Renderer:
+    return Renderer(Scene(subdivide=steps))
 
 
 @cache
@@ -52,79 +81,92 @@ def part_rows(head: Head, name: str) -> Ints:
 
 
 @cache
-def skin_quads(head: Head) -> tuple[Ints, Ints]:
-    """(F', 4) polygons of the refined skin, and the group of each."""
-    fine = refined(head).topology
+def skin_quads(head: Head) -> Ints:
+    """(4 F, 4) polygons of the refined skin: four of each."""
+    fine = refine(head.topology).topology
     part = fine.part("skin")
-    quads = fine.corners[fine.starts[part.first] : fine.starts[part.last]].reshape(-1, 4)
-    return quads, np.repeat(archive().groups, 4)
+    return fine.corners[fine.starts[part.first] : fine.starts[part.last]].reshape(-1, 4)
 
 
 @cache
-def lip_triangles(head: Head, upper: bool) -> Ints:
-    """(T, 3) of the refined outside of one lip and of the skin around it."""
-    stations = UPPER if upper else LOWER
-    left = {archive().vertex[f"{ring}_{s}"] for ring in OUTER_RINGS for s in stations}
+def quads_within(rings: tuple[str, ...]) -> np.ndarray:
+    """(F,) whether all corners of a polygon of the skin lie on some rings."""
+    left = {number for name, number in archive().vertex.items() if name.split("_")[0] in rings}
     wanted = left | {int(archive().mirror[v]) for v in left}
-    coarse = np.array([set(row) <= wanted for row in archive().quads.tolist()])
-    quads, _ = skin_quads(head)
-    quads = quads[np.repeat(coarse, 4)]
-    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return np.array([set(row) <= wanted for row in archive().quads.tolist()])
 
 
-def depth_behind(points: Points, triangles: Points) -> float:
-    """mm by which points (N, 3) stand in front (z) of triangles (T, 3, 3), at most; -inf where none lies behind any."""
-    a, b, c = (triangles[:, k] for k in range(3))
-    area = _cross(b - a, c - a)
-    front = area > 1e-10
-    a, b, c, area = a[front], b[front], c[front], area[front]
-    worst = -np.inf
-    for point in points:
-        u, v = _cross(b - point, c - point) / area, _cross(c - point, a - point) / area
-        inside = (u >= 0) & (v >= 0) & (u + v <= 1)
-        if inside.any():
-            z = (u * a[:, 2] + v * b[:, 2] + (1 - u - v) * c[:, 2])[inside]
-            worst = max(worst, float((point[2] - z).max()))
-    return worst * MM
+@cache
+def hidden_quads() -> np.ndarray:
+    """(F,) whether a polygon of the skin lies in mouth, nostrils or under a lid."""
+    hidden = [archive().group_names.index(name) for name in HIDDEN_GROUPS]
+    return np.isin(archive().groups, hidden)
 
 
-def _cross(first: Points, second: Points) -> Points:
-    return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+@cache
+def skin_rows(head: Head) -> Ints:
+    """Refined vertices of the skin."""
+    return np.unique(skin_quads(head))
 
 
-def teeth_through_lips_mm(posed: Posed) -> float:
-    """How far a tooth stands in front of its own lip."""
-    teeth, lower = posed.part("teeth"), archive().ints("teeth_lower").astype(bool)
-    front = np.abs(archive().floats("teeth_points")[:, 0]) < 0.024
-    worst = -np.inf
-    for own, upper in ((~lower, True), (lower, False)):
-        triangles = posed.fine[lip_triangles(posed.head, upper)]
-        worst = max(worst, depth_behind(teeth[own & front], triangles))
-    return worst
+@cache
+def is_outside(head: Head) -> np.ndarray:
+    """(V',) whether a refined vertex has nothing but outer skin around it."""
+    inner = hidden_quads() | quads_within(INWARDS[0]) | quads_within(INWARDS[1])
+    quads, rows = skin_quads(head), np.repeat(inner, 4)
+    out = np.zeros(refine(head.topology).topology.vertex_count, dtype=bool)
+    out[quads[~rows]] = True
+    out[quads[rows]] = False
+    return out
+
+
+# ---------------------------------------------------------------- what comes through
+
+
+def through_skin_mm(posed: Posed, *parts: str) -> float:
+    """How far any of the parts stands out of the skin that is nearest to it; negative where none of them does."""
+    points = np.concatenate([posed.part(name) for name in parts])
+    near = posed.nearest_skin(points)
+    counted = is_outside(posed.head)[near]
+    if not counted.any():
+        return -np.inf
+    near, normals = near[counted], posed.normals[near[counted]]
+    way = points[counted] - posed.fine[near]
+    height = (way * normals).sum(axis=1)
+    aside = np.linalg.norm(way - height[:, None] * normals, axis=1)
+    return MM * float(np.where(aside < SPACING_M, height, -np.inf).max())
+
+
+def skin_into_balls_mm(posed: Posed) -> float:
+    """How deep any refined skin outside the lids' inner sides lies in an eyeball: as far as that comes through."""
+    rows, scale = np.flatnonzero(is_outside(posed.head)), posed_scale(posed)
+    return max(_into_ball_mm(posed.fine[rows] / scale, ball(posed, side)) for side in ("left", "right"))
 
 
 def lids_into_balls_mm(posed: Posed) -> float:
     """How deep a lid's refined margin or the skin before the ball cuts into an eyeball."""
-    worst = -np.inf
-    for side in ("left", "right"):
-        centre, radius = ball(posed, side)
-        away = (posed.fine[: len(posed.fine)][lid_rows(posed.head, side)] - centre) / posed_scale(posed)
-        worst = max(worst, float((radius - np.sqrt((away * away).sum(axis=1))).max()))
-    return worst * MM
+    scale = posed_scale(posed)
+    sides = ("left", "right")
+    return max(_into_ball_mm(posed.fine[lid_rows(posed.head, side)] / scale, ball(posed, side)) for side in sides)
+
+
+def _into_ball_mm(points: Points, sphere: tuple[Points, float]) -> float:
+    away = points - sphere[0]
+    return MM * (sphere[1] - float(np.sqrt((away * away).sum(axis=1)).min()))
 
 
 def posed_scale(posed: Posed) -> np.ndarray:
+    """(3,) how much the whole head is scaled."""
     return np.array([posed.pose[f"head.scale.{axis}"] for axis in ("width", "height", "depth")])
 
 
 def ball(posed: Posed, side: str) -> tuple[Points, float]:
     """Centre and radius m of an eyeball before the head was scaled: through its points, by least squares."""
-    scale = posed_scale(posed)
-    points = posed.part(f"eye.{side}") / scale
+    points = posed.part(f"eye.{side}") / posed_scale(posed)
     system = np.concatenate([2.0 * points, np.ones((len(points), 1))], axis=1)
     solved = np.linalg.lstsq(system, (points * points).sum(axis=1), rcond=None)[0]
     centre = solved[:3]
-    return centre * scale, float(np.sqrt(solved[3] + centre @ centre))
+    return centre, float(np.sqrt(solved[3] + centre @ centre))
 
 
 @cache
@@ -134,28 +176,44 @@ def lid_rows(head: Head, side: str) -> Ints:
     rings = [LID_RINGS.index(name) for name in ("margin", "lip", "crease", "fold")]
     coarse = set(lids.index[(lids.side == sign) & np.isin(lids.ring, rings)].tolist())
     wanted = np.array([set(row) <= coarse for row in archive().quads.tolist()])
-    quads, _ = skin_quads(head)
-    return np.unique(quads[np.repeat(wanted, 4)])
+    return np.unique(skin_quads(head)[np.repeat(wanted, 4)])
 
 
-def flipped_polygons(posed: Posed) -> int:
+# ---------------------------------------------------------------- the skin itself
+
+
+def flipped_polygons(posed: Posed) -> Ints:
     """Polygons of the refined visible skin that face against all their neighbours."""
-    quads, groups = skin_quads(posed.head)
-    seen = ~np.isin(groups, [archive().group_names.index(name) for name in HIDDEN_GROUPS])
-    p = posed.fine[quads]
-    normals = np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
+    quads = skin_quads(posed.head)
+    normals = quad_normals(posed.fine, quads)
     size = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(size, 1e-15)[:, None]
-    total = np.zeros((len(posed.fine), 3))
-    for corner in range(4):
-        np.add.at(total, quads[:, corner], normals)
-    around = total[quads].sum(axis=1) - 4.0 * normals
+    around = spread(normals, quads, len(posed.fine))[quads].sum(axis=1) - 4.0 * normals
     agree = (around * normals).sum(axis=1) / np.maximum(np.linalg.norm(around, axis=1), 1e-15)
-    return int((seen & (agree < -0.35) & (size > 2e-8)).sum())
+    return np.flatnonzero(~np.repeat(hidden_quads(), 4) & (agree < -0.35) & (size > 2e-8))
 
 
-def lips_gap_mm(posed: Posed) -> float:
-    """Greatest height between the refined edges of the lips, corner left out."""
-    height = {name: posed.fine[number, 1] for name, number in archive().vertex.items()}
-    pairs = ((0, 9), (1, 8), (2, 7), (3, 6))
-    return MM * max(height[f"m0_{up}"] - height[f"m0_{low}"] for up, low in pairs)
+def bends_deg(points: Points, quads: Ints) -> np.ndarray:
+    """(F,) angle between the normals of the two triangles of a quadrilateral, by whichever diagonal it is less."""
+    p = points[quads]
+    angles = []
+    for k in (0, 1):
+        a, b, c, d = (p[:, (k + i) % 4] for i in range(4))
+        first, second = np.cross(b - a, c - a), np.cross(c - a, d - a)
+        size = np.linalg.norm(first, axis=1) * np.linalg.norm(second, axis=1)
+        cosine = (first * second).sum(axis=1) / np.maximum(size, 1e-20)
+        angles.append(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
+    return np.minimum(*angles)
+
+
+def spread(values: Points, quads: Ints, count: int) -> Points:
+    """(count, 3) sum at each vertex of the values (F, 3) of the polygons around it."""
+    rows = quads.ravel()
+    return np.stack([np.bincount(rows, np.repeat(column, 4), count) for column in values.T], axis=1)
+
+
+def quad_normals(points: Points, quads: Ints) -> Points:
+    """(F, 3) normals of quadrilaterals, as long as twice their area, m^2."""
+    p = points[quads]
+    (ax, ay, az), (bx, by, bz) = (p[:, 2] - p[:, 0]).T, (p[:, 3] - p[:, 1]).T
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)

@@ -26,8 +26,10 @@ BACK_COS_SIN = (-0.3420201433256687, 0.9396926207859084, -0.6427876096865394, 0.
 """Cosine and sine of 110 and 130 degrees: two rings behind his hemisphere, so that no gap shows beside the lids."""
 
 SPOT_SIDES = 6
-SPOT_LIFT = 1.006
-"""The spot is drawn just in front of the ball: his lens would pierce our lids, which lie closer than his."""
+SPOT_LIFT = 1.012
+SPOT_RINGS = (0.14, 0.4, 0.7, 1.0)
+"""The spot is a cap just in front of the ball: his lens, and a large flat spot, would pierce our lids, which lie closer
+than his. Its hexagons, shares of its size, are so near one another that it does not dip into the ball between them."""
 
 MOST_SIDEWAYS, MOST_UP = 1.0, 0.7
 """Tangents of the farthest that an eye turns: 45 degrees sideways, 35 up or down."""
@@ -197,8 +199,8 @@ def place_eye(centre, radius, forward, radii, wide, steps, circle, points, norma
 
 
 @kernel()
-def place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points):
-    """Fill ``points`` (6, 3) m: a hexagon on the eye where the light is mirrored to the viewer.
+def place_spot(centre, radius, forward, sizes, light, viewer, grid, points):
+    """Fill ``points`` (K, 3) m: a hexagon on the eye where the light is mirrored to the viewer.
 
     Args:
         centre: of the ball, m.
@@ -207,16 +209,58 @@ def place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points):
         sizes: of iris and spot, shares of the ball's radius.
         light: its place as the head has it before it turns, m.
         viewer: likewise.
-        hexagon: (6, 2) of ``circle``.
+        grid: (K, 2) of ``spot_grid``.
         points: filled.
     """
     direction, shown = spot_direction(centre, radius, forward, sizes[0], light, viewer)
     size = max(sizes[1] * shown, 1e-3)
     aside, above = aside_and_above(direction)
-    for corner in range(len(hexagon)):
+    for n in range(len(grid)):
+        across, up = size * grid[n, 0], size * grid[n, 1]
+        away = radius * SPOT_LIFT / np.sqrt(1.0 + across * across + up * up)
         for axis in range(3):
-            spoke = hexagon[corner, 0] * aside[axis] + hexagon[corner, 1] * above[axis]
-            points[corner, axis] = centre[axis] + radius * SPOT_LIFT * (direction[axis] + size * spoke)
+            points[n, axis] = centre[axis] + away * (direction[axis] + across * aside[axis] + up * above[axis])
+
+
+@lru_cache(maxsize=1)
+def spot_grid() -> Floats:
+    """(60, 2) points of hexagons inside one another, of which the k-th has k points a side."""
+    corners = circle(SPOT_SIDES)
+    rows = []
+    for k, ring in enumerate(SPOT_RINGS, start=1):
+        for side in range(SPOT_SIDES):
+            start, end = corners[side], corners[(side + 1) % SPOT_SIDES]
+            rows += [ring * (start + (end - start) * (step / k)) for step in range(k)]
+    return np.array(rows)
+
+
+@lru_cache(maxsize=1)
+def spot_polygons() -> tuple[Ints, Ints]:
+    """(1, 6) the hexagon in the middle and (90, 3) triangles around it; vertices as in ``spot_grid``."""
+    triangles = []
+    first = 0
+    for k in range(1, len(SPOT_RINGS)):
+        inner, outer = SPOT_SIDES * k, SPOT_SIDES * (k + 1)
+        for side in range(SPOT_SIDES):
+            for step in range(k + 1):
+                a = first + inner + side * (k + 1) + step
+                b = first + inner + (side * (k + 1) + step + 1) % outer
+                c = first + (side * k + step) % inner
+                triangles.append((a, b, c))
+                if step < k:
+                    triangles.append((c, b, first + (side * k + step + 1) % inner))
+        first += inner
+    return np.arange(SPOT_SIDES)[None], np.array(triangles, dtype=np.int64)
+
+
+def spot_mirror() -> Ints:
+    """(60,) the point of ``spot_grid`` that each becomes in the mirror."""
+    rings = range(1, len(SPOT_RINGS) + 1)
+    firsts = [SPOT_SIDES * k * (k - 1) // 2 for k in rings]
+    # Corner j of ring k lies at (j + k/2) / k sixths of the way around.
+    return np.concatenate(
+        [first + (2 * k - np.arange(SPOT_SIDES * k)) % (SPOT_SIDES * k) for first, k in zip(firsts, rings, strict=True)]
+    )
 
 
 @lru_cache(maxsize=8)

@@ -27,7 +27,7 @@ from .lashes import lashes
 from .measured import Archive, Floats, Kind, Measured, archive
 from .mouth import mouth_regions
 from .parts import Layout, Styles, lay_out
-from .poser import Eyes, Jaw, Poser
+from .poser import CHIN_END, Eyes, Jaw, Poser
 from .presets import head_presets
 from .residual import Residual, apply_residual, eyes_of
 from .rig import head_rig
@@ -179,7 +179,7 @@ class Head:
     @cached_property
     def _jaw(self) -> Jaw:
         archive, measured = self._archive, self._measured
-        chin = archive.vertex["k11_2"]
+        chin = archive.vertex[CHIN_END]
         moves = np.stack([measured.morphs[name][chin] for name in ("jawLeft", "jawRight", "jawForward")])
         share = remake_shares(measured.jaw_share, self.jaw)
         residual = measured.jaw_residual if self.jaw == "fitted" else np.zeros_like(measured.jaw_residual)

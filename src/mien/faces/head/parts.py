@@ -14,7 +14,7 @@ from mien.core.mesh import Ints, Points
 from . import shades
 from .brows import brow_strips
 from .creases import creased_skin
-from .eyes import CLASSIC, SMOOTH, SPOT_SIDES, eye_polygons, eye_shades
+from .eyes import CLASSIC, SMOOTH, eye_polygons, eye_shades, spot_grid, spot_mirror, spot_polygons
 from .hair import Hair, hair
 from .lashes import CARUNCLE_MIRROR, CARUNCLE_QUADS, lashes
 from .measured import Archive, Floats, Kind
@@ -101,7 +101,7 @@ class Layout:
         strip = brow_strips(archive, 0.0)
         both_sides = {
             "eye": np.minimum(np.concatenate([of(name) * factor for name, factor in eye_shades(self.sides)]), 1.0),
-            "spot": np.tile(of("spot"), (SPOT_SIDES, 1)),
+            "spot": np.tile(of("spot"), (len(spot_grid()), 1)),
             "caruncle": np.tile(shades.caruncle_color(pose), (len(CARUNCLE_MIRROR), 1)),
             "lash": shades.lash_color(pose, lashes(archive)),
             "brow": shades.brow_color(pose, strip.along, strip.across),
@@ -175,25 +175,28 @@ def _rows_of_an_eye(archive: Archive, side: str, sides: int) -> list[tuple[str, 
     """Name, number of vertices, polygons and material of each part around an eye."""
     lash, strip = lashes(archive), brow_strips(archive, 0.0)
     pupil, rings = eye_polygons(sides)
-    # The ring quads padded to the pupil's corners, as ``build_topology`` takes them.
-    padded = np.concatenate([rings, np.repeat(rings[:, -1:], sides - rings.shape[1], axis=1)], axis=1)
     return [
-        (f"eye.{side}", int(rings.max()) + 1, np.concatenate([pupil, padded]), EYE),
-        (f"spot.{side}", SPOT_SIDES, np.arange(SPOT_SIDES)[None], SPOT),
+        (f"eye.{side}", int(rings.max()) + 1, _padded(pupil, rings), EYE),
+        (f"spot.{side}", len(spot_grid()), _padded(*spot_polygons()), SPOT),
         (f"caruncle.{side}", len(CARUNCLE_MIRROR), CARUNCLE_QUADS, WET),
         (f"lash.{side}", len(lash.index[0]), lash.quads, LASH),
         (f"brow.{side}", len(strip.offset), strip.quads if side == "right" else strip.quads[:, ::-1], BROW),
     ]
 
 
+def _padded(middle: Ints, around: Ints) -> Ints:
+    """A polygon and smaller ones around it, whose last corners are repeated, as ``build_topology`` takes them."""
+    missing = middle.shape[1] - around.shape[1]
+    return np.concatenate([middle, np.concatenate([around, np.repeat(around[:, -1:], missing, axis=1)], axis=1)])
+
+
 def _mirror(span: Mapping[str, slice], rest: Mapping[str, Points], count: int, sides: int) -> Ints:
     """(V,) vertex in the mirror, -1 for hair and skin."""
     mirror = np.full(count, -1, dtype=np.int64)
     # Eyes: corner j lies at (j + 1/2) steps from the own left, so its mirror image is corner n/2 - 1 - j.
-    for name, corners in (("eye", sides), ("spot", SPOT_SIDES)):
-        ring, corner = np.divmod(_numbers(span[f"{name}.left"]), corners)
-        twin = ring * corners + (corners // 2 - 1 - corner) % corners
-        _pair(mirror, span, name, twin)
+    ring, corner = np.divmod(_numbers(span["eye.left"]), sides)
+    _pair(mirror, span, "eye", ring * sides + (sides // 2 - 1 - corner) % sides)
+    _pair(mirror, span, "spot", spot_mirror())
     _pair(mirror, span, "caruncle", np.array(CARUNCLE_MIRROR))
     for name in ("lash", "brow"):
         _pair(mirror, span, name, _numbers(span[f"{name}.left"]))

@@ -16,8 +16,9 @@ from . import posing
 from .brows import BrowRegions, BrowStrips, brow_moves
 from .carrying import Carried, bind_to_skin
 from .conformation import Shaper, blend_moves, no_fields
+from .contact import ball_gaps, before_teeth
 from .directions import directions
-from .eyes import SPOT_SIDES, band_steps, circle
+from .eyes import band_steps, circle, spot_grid
 from .folds import fold_moves, folds_of
 from .lashes import Lashes, caruncle_corners
 from .lids import lid_table
@@ -33,6 +34,10 @@ from .tongue import tongue_of
 
 CHUNK = 32
 """Poses of a batch that are worked on together: their skins fit a processor core's own cache."""
+
+
+CHIN_END = "k11_2"
+"""The vertex at the lower end of the chin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +135,10 @@ class Poser:
         lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
         below = layout.lower["teeth"]
         tongue = tongue_of(rest["tongue"], rest["teeth"][~below], rest["teeth"][below])
+        wide = measured.points + measured.morphs["eyeWide_L"] + measured.morphs["eyeWide_R"]
+        inner = archive.quads[archive.groups == archive.group_names.index("mouth")]
+        seen = ~np.isin(np.arange(len(measured.points)), inner)
+        before = before_teeth(measured.points, measured.jaw_share, seen, self._inside[: len(lower)], lower)
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
         grown = layout.beard
@@ -144,8 +153,9 @@ class Poser:
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
             *(mouth.over_teeth, tongue.front),
             *(lids.numbers, lids.polar, lids.rest, lids.pairs, lids.gaps, REST_OPENING),
+            ball_gaps(measured.lids, (measured.points, wide), eyes.balls),
             layout.skin,
-            *(band_steps(layout.sides), circle(layout.sides), circle(SPOT_SIDES), caruncle_corners(archive)),
+            *(band_steps(layout.sides), circle(layout.sides), spot_grid(), caruncle_corners(archive)),
             *(np.stack(lashes.index), np.stack(lashes.weight), np.stack(lashes.reach)),
             *(np.stack(strips.index), np.stack(strips.weight), strips.offset),
             *(grown.index, np.ones(grown.index.shape), grown.offset),
@@ -154,6 +164,7 @@ class Poser:
                 np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]),
                 *(tongue.profile, tongue.edges, jaw.chin),
             ),
+            *(before.rows, before.clearance, archive.vertex[CHIN_END]),
             *(archive.vertex["m0_0"], share),
         )
 

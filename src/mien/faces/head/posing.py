@@ -17,6 +17,7 @@ from mien.compiling import kernel
 
 from .brows import place_brows, shape_brow, sum_normals
 from .conformation import shape_held, shape_points
+from .contact import WAYS, give_way, keep_off_balls, lift_row, push_before, trace_rows
 from .eyes import fill_radii, look_at, place_eye, place_spot
 from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
@@ -129,14 +130,14 @@ def place_eyes(c, skin, gaze, parts, balls, rings, angles, pivot, radii, points,
         gaze: (2, 3) directions of the eyes.
         parts: first vertex of each of ``PARTS``.
         balls: (2, 4) m, centre and radius.
-        rings: steps and circle of ``place_eye``, hexagon of ``place_spot``, corners (2, 5) of ``place_caruncle``.
+        rings: steps and circle of ``place_eye``, grid of ``place_spot``, corners (2, 5) of ``place_caruncle``.
         angles: turn, nod and tilt of the head, radians.
         pivot: of the turned head, m.
         radii: (7, 2), overwritten.
         points: filled.
         normals: filled.
     """
-    steps, circle, hexagon, corners = rings
+    steps, circle, grid, corners = rings
     light, viewer = seen_from_rest(c, LIGHT, angles, pivot), seen_from_rest(c, VIEWER, angles, pivot)
     # What the head's scale will stretch is squeezed before, so that irises stay round.
     wide = np.sqrt(c[SCALE + 1] / c[SCALE])
@@ -146,7 +147,7 @@ def place_eyes(c, skin, gaze, parts, balls, rings, angles, pivot, radii, points,
         fill_radii(c[IRIS + side], c[PUPIL + side], c[FRINGE + side], radii)
         place_eye(centre, radius, forward, radii, wide, steps, circle, points[ball:], normals[ball:])
         sizes = c[IRIS + side], c[SPOT + side]
-        place_spot(centre, radius, forward, sizes, light, viewer, hexagon, points[spot:])
+        place_spot(centre, radius, forward, sizes, light, viewer, grid, points[spot:])
         place_caruncle(skin, corners[side], centre, radius, side == 1, points[corner:])
 
 
@@ -278,7 +279,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:], f8[:,:], f8[:], "  # lips
     "f8[:], f8[:], f8, f8[:,:], "  # jaw
     "f8[:,:], i8[:,:,:], f8[:], f8[:,:], i8[:], f8[:], "  # contacts
-    "i8[:,:], f8[:,:], f8[:,:], i8[:,:,:], f8[:,:], f8, "  # lids
+    "i8[:,:], f8[:,:], f8[:,:], i8[:,:,:], f8[:,:], f8, f8[:], "  # lids
     "i8[:], "  # skin
     "i8[:], f8[:,:], f8[:,:], i8[:,:], "  # rings of the eyes
     "i8[:,:,:], f8[:,:,:], f8[:,:,:], "  # lashes
@@ -286,6 +287,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:,:], f8[:,:], f8[:], "  # beard
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
+    "i8[:], f8[:,:], i8, "  # skin before the teeth
     "i8, f8[:], "  # lip's edge, neck
     "f8[:], "  # what no expression moves
     "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
@@ -300,14 +302,15 @@ def pose_heads(
     lips, lip_regions, tuck_share,
     jaw_axis, jaw_share, open_angle_deg, jaw_residual,
     bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front,
-    lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening,
+    lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening, clear_of_balls,
     source,
-    steps, circle, hexagon, corners,
+    steps, circle, grid, corners,
     lash_index, lash_weight, lash_reach,
     brow_index, brow_weight, brow_offset,
     beard_index, beard_weight, beard_offset,
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tongue_profile, tooth_edges, chin,
+    before, clearance, chin_end,
     lip_edge, neck_share,
     rest,
     amounts, kinds, axes, origins,
@@ -325,9 +328,11 @@ def pose_heads(
         balls: (3, 4) m, centre and radius of the eyes, and the neck's pivot; kappa_deg: of ``aim_eyes``.
         lips: lip_regions, tuck_share, jaw, contacts, lids: of ``deform_skin``.
         source: (K,) vertex of the skin of each of the first K vertices.
-        steps: circle, hexagon, corners: of ``place_eyes``.
+        steps: circle, grid, corners: of ``place_eyes``.
         lash_index: and what follows: of ``place_hairs``.
         carried: and what follows: of ``place_inside``.
+        clear_of_balls: of ``keep_off_balls``.
+        before: clearance: of ``push_before``; chin_end: of ``lift_row``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
         rest: (3 R,) m, of the vertices from the first of the teeth on: at rest inside the mouth, shaped beyond it.
@@ -354,19 +359,25 @@ def pose_heads(
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
         edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
-        for v in range(len(source)):
-            for axis in range(3):
-                out[v, axis] = skin[source[v], axis]
+        keep_off_balls(skin, lid_numbers, clear_of_balls, balls, held)
         run = flat[frame, 3 * parts[TEETH] :]
         for i in range(len(rest)):
             run[i] = rest[i]
-        place_eyes(c, skin, gaze, parts, held, (steps, circle, hexagon, corners), angles, pivot, radii, out, around)
+        place_inside(c, parts, carried, (tongue_profile, tooth_edges), jaw_axis, chin, edges, out)
+        inside, outlines, pressed = out[parts[TEETH] : parts[END]], scratch[:, :WAYS], scratch[:, WAYS : 2 * WAYS]
+        shape_points(inside, shape, inside_starts, inside_rows, inside_weights)
+        lift_row(inside, carried, skin[chin_end, 1])
+        upright = trace_rows(inside, carried[: parts[TONGUE] - parts[TEETH]], outlines)
+        push_before(skin, before, clearance, upright, outlines, pressed)
+        give_way(inside, carried, upright, pressed)
+        for v in range(len(source)):
+            for axis in range(3):
+                out[v, axis] = skin[source[v], axis]
+        place_eyes(c, skin, gaze, parts, held, (steps, circle, grid, corners), angles, pivot, radii, out, around)
         lashes, brows = (lash_index, lash_weight, lash_reach), (brow_index, brow_weight, brow_offset)
         beard = beard_index, beard_weight, beard_offset
         under = quads, brow_vertices, brow_starts, brow_quads
         place_hairs(c, skin, parts, held, lashes, brows, beard, under, scratch[0], out)
-        place_inside(c, parts, carried, (tongue_profile, tooth_edges), jaw_axis, chin, edges, out)
-        shape_points(out[parts[TEETH] : parts[END]], shape, inside_starts, inside_rows, inside_weights)
         if frame < len(colors):
             darken(parts, held, lip_edge, out, colors[frame])
         if c[SCALE] != 1.0 or c[SCALE + 1] != 1.0 or c[SCALE + 2] != 1.0:
