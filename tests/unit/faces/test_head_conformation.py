@@ -12,7 +12,7 @@ from mien.faces.head.table import conformation_rows
 from mien.faces.head.teeth import teeth_field
 from support import face
 
-HEAD = "head:tom"
+HEAD = "head:parke1974"
 STEPS = shape_steps(archive().floats("eye_centre"))
 
 

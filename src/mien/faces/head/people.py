@@ -30,6 +30,14 @@ def people() -> Mapping[str, Mapping[str, str]]:
     return rows
 
 
+@cache
+def shapes() -> Mapping[str, Mapping[str, float]]:
+    """Rows of ``data/shapes.json``: name of a person -> values of the shape that are not at rest."""
+    text = files(__package__).joinpath("data/shapes.json").read_text(encoding="utf-8")
+    rows: dict[str, dict[str, float]] = json.loads(text)
+    return rows
+
+
 def address(name: str) -> str:
     """How a shipped person is called for: ``head``, ``head:ada``."""
     return name if name == "head" else f"head:{name}"
@@ -45,7 +53,7 @@ def shipped_head(name: str) -> Head:
     if name not in people():
         raise UnknownNameError("head", name, people())
     row = people()[name]
-    return make_head(address(name), {**_DEFAULTS, **row}, {})
+    return make_head(address(name), {**_DEFAULTS, **row}, shapes().get(name, {}))
 
 
 def make_head(
