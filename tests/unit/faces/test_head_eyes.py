@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mien.core import Pose, Scene
-from mien.faces import load_face
 from mien.faces.head import eyes, lids
 from mien.faces.head.head import Head
 from mien.faces.head.measured import archive
@@ -16,7 +15,7 @@ from mien.faces.head.residual import Residual, apply_residual, read_residual
 from mien.render import draw
 from support import in_python
 
-HEAD = load_face("head:tom")
+HEAD = Head(hair="bald")
 REST = Pose.neutral(HEAD.parameters)
 PEOPLE = sorted((Path(__file__).parent / "people").glob("*.npz"))
 """Residuals of four people measured on ICT-FaceKit."""

@@ -12,7 +12,7 @@ from mien.faces.head.order import MECHANISMS, acts, nodes
 from mien.faces.head.table import conformation_rows, face_rows
 from support import face, in_python
 
-HEAD = face("head:tom")
+HEAD = face("head:parke1974")
 HOW = {"blend": "interpolation", "scale": "scaling", "lids": "scaling", "field": "scaling", "brow": "scaling"}
 HOW |= {"move": "translation", "turn": "rotation", "head": "scaling"}
 

@@ -16,7 +16,9 @@ PLACE = files("mien.faces.head").joinpath("data/conformation.arrays")
 ARRAYS = parse_arrays(PLACE.read_bytes())
 DIRECTIONS = [str(name) for name in ARRAYS["names"]]
 MORPHS = [str(name) for name in ARRAYS["morph_names"]]
-ENDS = [(number, end) for number, name in enumerate(DIRECTIONS) for end in (-1.0, 1.0) if (name, end) != ("face.age", -1.0)]
+ENDS = [
+    (number, end) for number, name in enumerate(DIRECTIONS) for end in (-1.0, 1.0) if (name, end) != ("face.age", -1.0)
+]
 KINDS = ("cage", "surface")
 HIDDEN = ("nostril", "mouth")
 """Groups of polygons inside of nose and mouth."""
