@@ -16,7 +16,7 @@ from mien.faces.head.hair import STEP_M, STEP_SHADE
 from mien.faces.head.measured import Archive, archive
 
 OUT = Path(__file__).parents[1] / "src/mien/faces/head/data/wear.arrays"
-SUNK_M = -0.0022
+SUNK_M = -0.0016
 """How deep the rim of a beard lies below the skin."""
 
 
@@ -48,9 +48,9 @@ def jaw(p: np.ndarray) -> np.ndarray:
     """(V,) 0..1 along the jaw, from the ears to the chin."""
     x, y, z = np.abs(p[:, 0]), p[:, 1], p[:, 2]
     # The upper edge runs from before the ear over the cheek to below the corner of the mouth.
-    edge = -0.012 - 0.058 * smooth((z - 0.018) / 0.055)
-    side = smooth((edge - y) / 0.010) * smooth((x - 0.012) / 0.010)
-    return side * smooth((z - 0.010) / 0.010) * smooth((y + 0.122 - 0.3 * np.clip(0.05 - z, 0, None)) / 0.012)
+    edge = 0.004 - 0.068 * smooth((z - 0.014) / 0.055)
+    side = smooth((edge - y) / 0.020) * smooth((x - 0.012) / 0.010)
+    return side * smooth((z - 0.006) / 0.012) * smooth((y + 0.122 - 0.3 * np.clip(0.05 - z, 0, None)) / 0.012)
 
 
 def sides_of_mouth(p: np.ndarray) -> np.ndarray:
@@ -59,15 +59,15 @@ def sides_of_mouth(p: np.ndarray) -> np.ndarray:
     return smooth((x - 0.0285) / 0.004) * smooth((0.044 - x) / 0.008) * smooth((-0.054 - y) / 0.006) * (z > 0.06)
 
 
-BEARDS = {  # thickness in m, darkness of the skin beneath, regions
-    "stubble": (0.0, 0.34, (moustache, chin, jaw, sides_of_mouth)),
-    "moustache": (0.0062, 0.5, (moustache,)),
-    "goatee": (0.0085, 0.5, (moustache, chin, sides_of_mouth)),
-    "full": (0.0110, 0.6, (moustache, chin, jaw, sides_of_mouth)),
+BEARDS = {  # thickness in m, darkness of the skin beneath, least share of the skin's colour, regions
+    "stubble": (0.0, 0.34, 0.0, (moustache, chin, jaw, sides_of_mouth)),
+    "moustache": (0.0062, 0.5, 0.04, (moustache,)),
+    "goatee": (0.0065, 0.5, 0.16, (moustache, chin, sides_of_mouth)),
+    "full": (0.0090, 0.6, 0.06, (moustache, chin, jaw, sides_of_mouth)),
 }
 
 
-def beard(head: Archive, thick_m: float, dark: float, regions: tuple) -> dict[str, np.ndarray]:
+def beard(head: Archive, thick_m: float, dark: float, thin: float, regions: tuple) -> dict[str, np.ndarray]:
     """Arrays of one beard: vertices of the skin it stands on, how far off, polygons, shade, and tint of the skin."""
     points, mirror = head.floats("surface"), head.mirror
     grown = np.max([region(points) for region in regions], axis=0)
@@ -88,7 +88,9 @@ def beard(head: Archive, thick_m: float, dark: float, regions: tuple) -> dict[st
     strand = 1.0 + 0.10 * np.where((np.abs(points[index, 0]) * 260).astype(int) % 2 == 0, 1.0, -1.0)
     number = np.zeros(len(points), dtype=np.int64)
     number[index] = np.arange(len(index))
-    shade = np.stack([strand * (0.85 + 0.15 * own), 0.9 * (1.0 - smooth(own / 0.3))], axis=1)
+    # At the rim the colour of the tinted skin beneath; what is drawn is the square of the share.
+    skin_share = np.maximum(1.0 - smooth((own - 0.15) / 0.6), thin) * (1.0 - dark * own)
+    shade = np.stack([strand * (0.85 + 0.15 * own), np.sqrt(skin_share)], axis=1)
     return {
         **out,
         "index": index.astype(np.int16),
@@ -206,8 +208,8 @@ def frame(shape: Frame) -> dict[str, np.ndarray]:
 def main() -> None:
     head = archive()
     out: dict[str, np.ndarray] = {}
-    for name, (thick_m, dark, regions) in BEARDS.items():
-        out |= {f"beard_{name}_{key}": value for key, value in beard(head, thick_m, dark, regions).items()}
+    for name, (thick_m, dark, thin, regions) in BEARDS.items():
+        out |= {f"beard_{name}_{key}": value for key, value in beard(head, thick_m, dark, thin, regions).items()}
     for name, shape in FRAMES.items():
         out |= {f"glasses_{name}_{key}": value for key, value in frame(shape).items()}
     OUT.write_bytes(format_arrays(out))

@@ -9,6 +9,9 @@ from scipy.interpolate import PchipInterpolator
 
 from .skull import CENTRE, Skull, directions
 
+SUNK_M = 0.0016
+"""How deep the end of a strand that thins out lies below the skin."""
+
 
 @dataclass(frozen=True, eq=False)
 class Shell:
@@ -31,18 +34,19 @@ class Cap:
         groove: depth of the locks, m.
         locks: how many there are around.
         lump: height of the lumps of curly hair, m; lump_size: how wide they are, m.
-        taper: share of a strand over which it thins out into the skin; 0 for a hem that hangs.
+        taper: length over which a strand thins out into the skin, m; 0 for a hem that hangs.
+        flat: whether it thins out little by little, not in a round.
         hang: elevation in degrees below which hair falls.
         flare: how far it swings outwards, m after a fall of 12 cm.
         top: thickness at the pole over that at the sides.
         rim: azimuth and height of the upper rim of a ring of hair.
         tuft: more thickness over the forehead, m.
         ragged: how uneven the hem is, m.
-        line: where a side parting lies, m to the own left.
-        swirl: how far locks in front run aslant, radians.
+        line: azimuth of a side parting, degrees to the own left; 0 for none.
+        swirl: how far locks in front run aslant, radians; away from a side parting on both sides.
         columns, rows: of the grid.
         seed: of the locks.
-        fade: share of the skin's colour at the hem.
+        fade: length over which its colour becomes the skin's, m.
     """
 
     hem: tuple[tuple[float, float], ...]
@@ -54,6 +58,7 @@ class Cap:
     lump: float = 0.0
     lump_size: float = 0.016
     taper: float = 0.0
+    flat: bool = False
     hang: float = -8.0
     flare: float = 0.0
     top: float = 1.0
@@ -65,7 +70,12 @@ class Cap:
     columns: int = 96
     rows: int = 21
     seed: int = 1
-    fade: float = 0.5
+    fade: float = 0.0035
+
+    @property
+    def parting(self) -> float:
+        """Azimuth of the side parting, radians."""
+        return float(np.radians(self.line))
 
 
 def smooth(x: np.ndarray) -> np.ndarray:
@@ -74,40 +84,46 @@ def smooth(x: np.ndarray) -> np.ndarray:
     return x * x * (3.0 - 2.0 * x)
 
 
-def _round(x: np.ndarray) -> np.ndarray:
-    x = np.clip(x, 0.0, 1.0)
-    return np.sqrt(x * (2.0 - x))
-
-
 def _table(rows: tuple[tuple[float, float], ...], azimuth: np.ndarray) -> np.ndarray:
     """Values at azimuths (radians), the same on both sides of the head."""
-    away = np.degrees(np.abs(np.mod(azimuth + np.pi, 2 * np.pi) - np.pi))
+    away = np.degrees(np.abs(_turned(azimuth)))
     knots = np.array(sorted(rows))
     left = knots[knots[:, 0] > 0][:1] * [-1, 1]
     return PchipInterpolator(*np.concatenate([left, knots]).T, extrapolate=True)(away)
 
 
 def _azimuths(cap: Cap) -> np.ndarray:
-    """(M,) azimuths of the columns, symmetric, denser where the hem is steep."""
+    """(M,) azimuths of the columns, denser where the hem is steep and beside a side parting."""
     fine = np.linspace(0.0, np.pi, 721)
     height = _table(cap.hem, fine)
     step = np.hypot(np.diff(fine) * 0.085, np.diff(height) * 0.8)
     along = np.concatenate([[0.0], np.cumsum(step)])
     half = cap.columns // 2
     left = np.interp((np.arange(half) + 0.5) / half * along[-1], along, fine)
-    return np.concatenate([left, 2 * np.pi - left[::-1]])
+    both = np.concatenate([left, 2 * np.pi - left[::-1]])
+    if not cap.line:
+        return both
+    off = _turned(both - cap.parting)
+    return cap.parting + off * (1.0 - 0.8 * np.exp(-((off / 0.25) ** 2)))  # five times as dense at the parting
 
 
-def _noise(rng: np.random.Generator, azimuth: np.ndarray, along: np.ndarray, locks: int, swirl: float) -> np.ndarray:
+def _turned(angle: np.ndarray) -> np.ndarray:
+    """Angles in radians as -pi..pi."""
+    return np.mod(angle + np.pi, 2 * np.pi) - np.pi
+
+
+def _noise(rng: np.random.Generator, azimuth: np.ndarray, along: np.ndarray, cap: Cap) -> np.ndarray:
     """(M, R) of about -1..1: locks that run along the strands and wander a little."""
-    out = np.zeros((len(azimuth), along.shape[-1]))
-    for share, count in ((0.55, locks), (0.3, locks * 0.55), (0.35, locks * 1.6)):
+    out = np.zeros(along.shape)
+    bend = cap.swirl * np.clip(np.cos(azimuth), 0.0, 1.0)
+    if cap.line:
+        bend = bend * np.tanh(_turned(azimuth - cap.parting) / 0.15)
+    for share, count in ((0.55, cap.locks), (0.3, cap.locks * 0.55), (0.35, cap.locks * 1.6)):
         number = max(1, round(count))
         phase, wander = rng.uniform(0, 2 * np.pi, 2)
-        aslant = number * swirl * along * np.clip(np.cos(azimuth), 0.0, 1.0)[:, None]
-        drift = 0.8 * np.sin(2.2 * along + wander) + aslant
+        drift = 0.8 * np.sin(2.2 * along + wander) + number * along * bend[:, None]
         out += share * np.sin(number * azimuth[:, None] + phase + drift + 0.7 * np.sin(3 * azimuth[:, None] + wander))
-    return out
+    return out * smooth(along / 0.25)
 
 
 def _lumps(points: np.ndarray, size: float, rng: np.random.Generator) -> np.ndarray:
@@ -122,51 +138,31 @@ def _lumps(points: np.ndarray, size: float, rng: np.random.Generator) -> np.ndar
 
 
 def cap_shell(cap: Cap, skull: Skull) -> Shell:
-    """The shell of a cap: rows from the parting to the hem, then turned under into the skin."""
+    """The shell of a cap: rows from the pole to the hem, then turned under into the skin."""
     rng = np.random.default_rng(cap.seed)
     azimuth = _azimuths(cap)
-    end = _table(cap.hem, azimuth)
-    end = end + cap.ragged * (np.sin(13 * azimuth) + 0.6 * np.sin(22 * azimuth + 1.0))
-    thick = _table(cap.thick, azimuth)
-    fine = _paths(cap, skull, azimuth, thick)
-    start = _table(cap.rim, azimuth) if cap.rim else np.full(len(azimuth), np.inf)
-    grid = np.empty((len(azimuth), cap.rows, 3))
-    along = np.linspace(0.0, 1.0, cap.rows)
-    if cap.taper and not cap.rim:
-        along = 1.0 - (1.0 - along) ** 1.5  # more rows where it thins out
-    for column, path in enumerate(fine):
-        low = path[:, 1] <= end[column]
-        last = int(np.argmax(low)) if low.any() else len(path) - 1
-        first = int(np.argmax(path[:, 1] <= start[column])) if cap.rim else 0
-        cut = path[first : max(last, first + 2) + 1]
-        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(cut, axis=0), axis=1))])
-        at = along * length[-1]
-        grid[column] = np.stack([np.interp(at, length, cut[:, axis]) for axis in range(3)], axis=1)
-    outward = _outward(grid)
-    noise = _noise(rng, azimuth, along, cap.locks, cap.swirl) if cap.locks else np.zeros(grid.shape[:2])
-    noise *= smooth(along / 0.25)
-    lift = cap.groove * noise
-    line = np.exp(-(((grid[..., 0] - cap.line) / 0.005) ** 2)) * smooth((grid[..., 2] + 0.02) / 0.03) * (cap.line > 0)
-    lift = lift - 0.007 * line * smooth((grid[..., 1] - 0.05) / 0.03)
+    grid, along, left = _strands(cap, skull, azimuth)
+    noise = _noise(rng, azimuth, along, cap) if cap.locks else np.zeros(along.shape)
+    line, lift = _parting(cap, azimuth, grid, along)
+    lift = lift + cap.groove * noise
     if cap.lump:
         lift = lift + cap.lump * (_lumps(grid, cap.lump_size, rng) - 0.5)
-    fade = np.zeros((len(azimuth), cap.rows))
+    fade = 0.6 * line
+    outward = _outward(grid)
     if cap.taper:
-        way = (1.0 - along) / cap.taper
-        # Round the hem off to below the skin; what is thickest has farthest to go.
-        thin = _round(way) if cap.fade < 0.9 else np.clip(way, 0.0, 1.0) * (2.0 - np.clip(way, 0.0, 1.0))
+        thin = _thinned(cap, left)
+        fade = np.maximum(fade, _faded(cap, left))
         if cap.rim:
-            thin = thin * _round(along / cap.taper)
-            fade = np.maximum(fade, cap.fade * smooth(1.0 - along / (0.55 * cap.taper)))
+            start = left[:, :1] - left
+            thin = thin * _thinned(cap, start)
+            fade = np.maximum(fade, _faded(cap, start))
         base, size = _grounded(grid, skull)
-        height = (size + lift) * thin - 0.0014 * (1.0 - thin)
+        height = np.maximum(size + lift, 0.0012) * thin - SUNK_M * (1.0 - thin)
         grid = base + outward * height[..., None]
-        fade = np.maximum(fade, smooth(1.0 - way / 0.55) * cap.fade)
     else:
         grid = grid + outward * (lift * smooth(along * 3.0))[..., None]
     bright = 1.0 + 0.16 * noise + 0.07 * smooth((along - 0.6) / 0.4) + 0.16 * np.exp(-(((along - 0.38) / 0.13) ** 2))
-    bright = bright - 0.22 * smooth(1.0 - along / 0.12)
-    bright = bright - 0.35 * line
+    bright = bright - 0.22 * smooth(1.0 - along / 0.12) - 0.15 * line
     if cap.lump:
         bright = 0.72 + 0.42 * np.clip(0.5 + (lift / cap.lump), 0.0, 1.2)
     turned, dark = _turn_under(grid, cap)
@@ -175,6 +171,63 @@ def cap_shell(cap: Cap, skull: Skull) -> Shell:
     under = np.stack([np.tile(dark, (len(azimuth), 1)), np.repeat(fade[:, -1:], len(dark), axis=1)], axis=2)
     shade = np.concatenate([shade, under], axis=1)
     return _close(points, shade, not cap.rim)
+
+
+def _strands(cap: Cap, skull: Skull, azimuth: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(M, R, 3) m from the pole to the hem, the share (M, R) of the way gone, and what is left of it in m."""
+    end = _table(cap.hem, azimuth)
+    end = end + cap.ragged * (np.sin(13 * azimuth) + 0.6 * np.sin(22 * azimuth + 1.0))
+    fine = _paths(cap, skull, azimuth, _table(cap.thick, azimuth))
+    start = _table(cap.rim, azimuth) if cap.rim else np.full(len(azimuth), np.inf)
+    grid = np.empty((len(azimuth), cap.rows, 3))
+    left = np.empty(grid.shape[:2])
+    for column, path in enumerate(fine):
+        low = path[:, 1] <= end[column]
+        last = int(np.argmax(low)) if low.any() else len(path) - 1
+        first = int(np.argmax(path[:, 1] <= start[column])) if cap.rim else 0
+        cut = path[first : max(last, first + 2) + 1]
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(cut, axis=0), axis=1))])
+        left[column] = _rows(cap, length[-1])
+        at = length[-1] - left[column]
+        grid[column] = np.stack([np.interp(at, length, cut[:, axis]) for axis in range(3)], axis=1)
+    return grid, 1.0 - left / left[:, :1], left
+
+
+def _rows(cap: Cap, length: float) -> np.ndarray:
+    """(R,) m that is left of a strand at each row: denser where colour and thickness fade."""
+    if not cap.taper:
+        return length * np.linspace(1.0, 0.0, cap.rows)
+    near = cap.fade * np.array([1.6, 1.0, 0.6, 0.3, 0.0]) * min(1.0, 0.2 * length / cap.fade)
+    far = cap.rows - len(near)
+    if cap.rim:
+        far -= len(near)
+        return np.concatenate([length - near[::-1], np.linspace(length - near[0], near[0], far + 2)[1:-1], near])
+    # Steps that shrink towards the hem.
+    return np.concatenate([near[0] + (length - near[0]) * np.linspace(1.0, 0.0, far + 1)[:-1] ** 1.4, near])
+
+
+def _thinned(cap: Cap, left: np.ndarray) -> np.ndarray:
+    """0..1 of the thickness so far from the hem, which lies below the skin."""
+    way = np.clip(left / cap.taper, 0.0, 1.0)
+    return way * (2.0 - way) if cap.flat else np.sqrt(way * (2.0 - way))
+
+
+def _faded(cap: Cap, left: np.ndarray) -> np.ndarray:
+    """0..1 of the skin's colour so far from the hem; all of it where the strand leaves the skin."""
+    hidden = (0.12 if cap.flat else 0.015) * cap.taper
+    return smooth(1.0 - (left - hidden) / cap.fade)
+
+
+def _parting(cap: Cap, azimuth: np.ndarray, grid: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(M, R) 0..1 on a side parting, and the lift (m) of the hair swept away from it to the own right."""
+    if not cap.line:
+        return np.zeros(along.shape), np.zeros(along.shape)
+    across = _turned(azimuth - cap.parting)[:, None] * np.hypot(grid[..., 0], grid[..., 2] - CENTRE[2])
+    on = smooth((along - 0.25) / 0.2)
+    line = np.exp(-((across / 0.0016) ** 2)) * on
+    swept = smooth(-across / 0.016) * smooth((0.135 + across) / 0.11) * smooth((grid[..., 1] - 0.05) / 0.03)
+    front = smooth((grid[..., 2] - 0.005) / 0.05)
+    return line, on * (cap.tuft * swept * (0.35 + 0.65 * front) - 0.007 * np.exp(-((across / 0.0035) ** 2)))
 
 
 def _paths(cap: Cap, skull: Skull, azimuth: np.ndarray, thick: np.ndarray) -> np.ndarray:
@@ -194,7 +247,8 @@ def _paths(cap: Cap, skull: Skull, azimuth: np.ndarray, thick: np.ndarray) -> np
     # One thickness at the pole, where all columns meet.
     own = smooth(share / 0.7)
     size = (thick[:, None] * own + thick.mean() * (1.0 - own)) * (cap.top + (1.0 - cap.top) * smooth(share))
-    size = size + cap.tuft * smooth((ways[..., 2] - 0.25) / 0.5) * smooth((e - 0.35) / 0.5)
+    if not cap.line:
+        size = size + cap.tuft * smooth((ways[..., 2] - 0.25) / 0.5) * smooth((e - 0.35) / 0.5)
     over = CENTRE + ways * (skull.radius(a, e) + size)[..., None]
     heights = np.linspace(0.0, 1.0, 120)[None] * (-0.24 - over[:, -1, 1])[:, None] + over[:, -1, 1][:, None]
     first = np.hypot(over[:, -1, 0], over[:, -1, 2] - CENTRE[2])
