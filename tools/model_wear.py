@@ -16,7 +16,7 @@ from mien.faces.head.hair import STEP_M, STEP_SHADE
 from mien.faces.head.measured import Archive, archive
 
 OUT = Path(__file__).parents[1] / "src/mien/faces/head/data/wear.arrays"
-SUNK_M = -0.0016
+SUNK_M = -0.0010
 """How deep the rim of a beard lies below the skin."""
 
 
@@ -48,9 +48,9 @@ def jaw(p: np.ndarray) -> np.ndarray:
     """(V,) 0..1 along the jaw, from the ears to the chin."""
     x, y, z = np.abs(p[:, 0]), p[:, 1], p[:, 2]
     # The upper edge runs from before the ear over the cheek to below the corner of the mouth.
-    edge = 0.004 - 0.068 * smooth((z - 0.014) / 0.055)
-    side = smooth((edge - y) / 0.020) * smooth((x - 0.012) / 0.010)
-    return side * smooth((z - 0.006) / 0.012) * smooth((y + 0.122 - 0.3 * np.clip(0.05 - z, 0, None)) / 0.012)
+    edge = 0.014 - 0.069 * smooth((z - 0.014) / 0.055)
+    side = smooth((edge - y) / 0.030) * smooth((x - 0.012) / 0.010)
+    return side * smooth((z - 0.002) / 0.008) * smooth((y + 0.122 - 0.3 * np.clip(0.05 - z, 0, None)) / 0.012)
 
 
 def sides_of_mouth(p: np.ndarray) -> np.ndarray:
@@ -84,12 +84,14 @@ def beard(head: Archive, thick_m: float, dark: float, thin: float, regions: tupl
         quads = quads[:0]
     index = np.unique(quads)
     own = grown[index]
-    height = SUNK_M + (thick_m - SUNK_M) * smooth(own)
+    # Thin on the cheeks, where a steep rim would catch the light.
+    full = thick_m * (0.4 + 0.6 * smooth((points[index, 2] - 0.045) / 0.035))
+    height = SUNK_M + (full - SUNK_M) * smooth((own - 0.1) / 0.9)
     strand = 1.0 + 0.10 * np.where((np.abs(points[index, 0]) * 260).astype(int) % 2 == 0, 1.0, -1.0)
     number = np.zeros(len(points), dtype=np.int64)
     number[index] = np.arange(len(index))
     # At the rim the colour of the tinted skin beneath; what is drawn is the square of the share.
-    skin_share = np.maximum(1.0 - smooth((own - 0.15) / 0.6), thin) * (1.0 - dark * own)
+    skin_share = np.maximum(1.0 - smooth((own - 0.25) / 0.45), thin)
     shade = np.stack([strand * (0.85 + 0.15 * own), np.sqrt(skin_share)], axis=1)
     return {
         **out,

@@ -11,6 +11,9 @@ from .skull import CENTRE, Skull, directions
 
 SUNK_M = 0.0016
 """How deep the end of a strand that thins out lies below the skin."""
+MIN_STRAND_M = 0.004
+OPAQUE_M = 0.005
+"""How far off the skin hair has its own colour only, however near to the hem."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +150,7 @@ def cap_shell(cap: Cap, skull: Skull) -> Shell:
     lift = lift + cap.groove * noise
     if cap.lump:
         lift = lift + cap.lump * (_lumps(grid, cap.lump_size, rng) - 0.5)
-    fade = 0.6 * line
+    fade = np.zeros(along.shape)
     outward = _outward(grid)
     if cap.taper:
         thin = _thinned(cap, left)
@@ -159,6 +162,7 @@ def cap_shell(cap: Cap, skull: Skull) -> Shell:
         base, size = _grounded(grid, skull)
         height = np.maximum(size + lift, 0.0012) * thin - SUNK_M * (1.0 - thin)
         grid = base + outward * height[..., None]
+        fade = np.maximum(fade * smooth((OPAQUE_M - height) / OPAQUE_M), 0.6 * line)
     else:
         grid = grid + outward * (lift * smooth(along * 3.0))[..., None]
     bright = 1.0 + 0.16 * noise + 0.07 * smooth((along - 0.6) / 0.4) + 0.16 * np.exp(-(((along - 0.38) / 0.13) ** 2))
@@ -182,15 +186,21 @@ def _strands(cap: Cap, skull: Skull, azimuth: np.ndarray) -> tuple[np.ndarray, n
     grid = np.empty((len(azimuth), cap.rows, 3))
     left = np.empty(grid.shape[:2])
     for column, path in enumerate(fine):
-        low = path[:, 1] <= end[column]
-        last = int(np.argmax(low)) if low.any() else len(path) - 1
-        first = int(np.argmax(path[:, 1] <= start[column])) if cap.rim else 0
-        cut = path[first : max(last, first + 2) + 1]
-        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(cut, axis=0), axis=1))])
-        left[column] = _rows(cap, length[-1])
-        at = length[-1] - left[column]
-        grid[column] = np.stack([np.interp(at, length, cut[:, axis]) for axis in range(3)], axis=1)
+        gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+        first, last = _down_to(start[column], path, gone), _down_to(end[column], path, gone)
+        left[column] = _rows(cap, max(last - first, MIN_STRAND_M))
+        at = first + left[column, 0] - left[column]
+        grid[column] = np.stack([np.interp(at, gone, path[:, axis]) for axis in range(3)], axis=1)
     return grid, 1.0 - left / left[:, :1], left
+
+
+def _down_to(height: float, path: np.ndarray, gone: np.ndarray) -> float:
+    """How far, m, a path (K, 3) has gone, by ``gone`` (K,), when it first comes down to a height."""
+    below = np.flatnonzero((path[:-1, 1] > height) & (path[1:, 1] <= height))
+    if not len(below):
+        return 0.0 if path[0, 1] <= height else float(gone[-1])
+    k = below[0]
+    return float(np.interp(-height, -path[k : k + 2, 1], gone[k : k + 2]))
 
 
 def _rows(cap: Cap, length: float) -> np.ndarray:

@@ -86,9 +86,10 @@ class Layout:
         archive, rest = self.archive, self.rest
         of = partial(shades.color_of, pose)
         band = archive.ints("collar_quads")[archive.ints("collar_band").astype(bool)]
+        skin = shades.tinted(self._bare_skin(pose), of("hair"), self.beard.tint[self.skin])
         out = {
-            "skin": shades.tinted(self._bare_skin(pose), of("hair"), self.beard.tint[self.skin]),
-            "beard": shades.hair_color(pose, self.beard.shade),
+            "skin": skin,
+            "beard": shades.hair_color(of("hair"), skin[self.beard.index[:, 0]], self.beard.shade),
             "glasses": np.tile(self.glasses.color, (len(self.glasses.points), 1)),
             "teeth": of("tooth")
             * shades.tooth_light(archive)
@@ -96,7 +97,7 @@ class Layout:
             "gums": of("gum") * shades.depth_shade(rest["gums"], 0.092, 0.024, DEEP_FLESH),
             "tongue": of("tongue") * shades.depth_shade(rest["tongue"], 0.088, 0.034, DEEP_FLESH),
             "collar": shades.collar_color(pose, len(archive.floats("collar_points")), band),
-            "hair": shades.hair_color(pose, self.hair.shade),
+            "hair": shades.hair_color(of("hair"), of("skin"), self.hair.shade),
         }
         strip = brow_strips(archive, 0.0)
         both_sides = {

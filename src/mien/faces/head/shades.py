@@ -82,7 +82,7 @@ def brow_color(pose: Pose, along: Floats, across: Floats) -> Floats:
     start, end = np.clip(1.0 - along / 0.12, 0.0, 1.0), np.clip((along - 0.78) / 0.22, 0.0, 1.0)
     fade = (0.42 * start + 0.30 * end)[:, None]
     edge = 0.16 * np.clip((np.abs(across) - 0.3) / 0.2, 0.0, 1.0)[:, None]
-    streak = 1.0 + 0.22 * (np.mod(np.rint(along * 14.0) + np.rint(across * 3.0), 2.0)[:, None] - 0.5)
+    streak = 1.0 + 0.10 * (np.mod(np.rint(along * 14.0) + np.rint(across * 3.0), 2.0)[:, None] - 0.5)
     return hair * streak * (1.0 - fade - edge) + skin * (fade + edge)
 
 
@@ -140,9 +140,8 @@ def palette_key(pose: Pose) -> bytes:
     return pose.values[first:].tobytes()
 
 
-def hair_color(pose: Pose, shade: Floats) -> Floats:
-    """(N, 3) of hair: brightness of each strand, fading to skin at the hairline."""
-    hair, skin = color_of(pose, "hair"), color_of(pose, "skin")
+def hair_color(hair: Floats, skin: Floats, shade: Floats) -> Floats:
+    """(N, 3) of hair (3,): brightness of each strand, fading at the hairline to skin, (3,) or (N, 3)."""
     bright = np.clip(shade[:, :1], 0.0, 2.0)
     fade = shade[:, 1:] * shade[:, 1:]
     return np.minimum((hair * 1.15 + 0.004) * bright * bright * (1.0 - fade) + skin * fade, 1.0)
