@@ -27,7 +27,7 @@ PIXELS_A_M = 3000.0
 REACH_M = {"eye": 0.022, "mouth": 0.048}
 """Half the side of a picture of an eye and of the mouth."""
 
-CUT_M = {"eye": 0.12, "mouth": 0.085}
+CUT_M = {"eye": 0.12, "mouth": 0.15}
 """What lies farther from an eye or the mouth at rest is not drawn."""
 
 WAYS = {

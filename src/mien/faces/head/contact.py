@@ -19,6 +19,7 @@ from mien.compiling import kernel
 from mien.core.mesh import Ints, Points
 
 from .angles import soft_step
+from .conformation import LIDS
 from .measured import Floats, Lids
 from .vectors import length
 
@@ -40,6 +41,9 @@ cage that is pushed takes its subdivided skin only a part of the way."""
 
 LID_GAP = 0.99
 """Share of the least of its distances from the ball, shut, at rest and wide open, that a lid keeps."""
+
+SAG = 0.05
+"""How much farther off, in radii, a cage must stay whose lids are stretched by 1: its refined skin sags more."""
 
 OVER_CHIN_M = 0.009
 """How high the lower gums stay above the end of the chin at least; at rest it is 31 mm."""
@@ -221,13 +225,24 @@ def ball_gaps(lids: Lids, open_lids: Sequence[Points], balls: Floats) -> Floats:
 
 
 @kernel()
-def keep_off_balls(skin, numbers, gaps, balls, held):
+def stretch_of(amounts, kinds, axes):
+    """How far the lids of either eye are wider and higher than at rest, both added, from steps (K,) of the shape."""
+    wider, higher = 0.0, 0.0
+    for k in range(len(amounts)):
+        if kinds[k] == LIDS:
+            wider, higher = max(wider, amounts[k] * axes[k, 0]), max(higher, amounts[k] * axes[k, 1])
+    return wider + higher
+
+
+@kernel()
+def keep_off_balls(skin, numbers, gaps, stretch, balls, held):
     """Push lids of the skin (S, 3) m out to where they clear the eyeballs.
 
     Args:
         skin: changed.
         numbers: of ``LidTable``.
         gaps: of ``ball_gaps``.
+        stretch: of ``stretch_of``.
         balls: (2.., 4) m, centre and radius at rest.
         held: (2.., 4) m, now.
     """
@@ -235,7 +250,8 @@ def keep_off_balls(skin, numbers, gaps, balls, held):
         v, side = numbers[n, 0], 1 - numbers[n, 1]
         if gaps[n] > 0.0:
             x, y, z = skin[v, 0] - held[side, 0], skin[v, 1] - held[side, 1], skin[v, 2] - held[side, 2]
-            away, wanted = np.sqrt(x * x + y * y + z * z), held[side, 3] * (1.0 + gaps[n] / balls[side, 3])
+            wanted = held[side, 3] * (1.0 + gaps[n] / balls[side, 3] + SAG * stretch)
+            away = np.sqrt(x * x + y * y + z * z)
             if 0.0 < away < wanted:
                 size = wanted / away
                 skin[v, 0] = held[side, 0] + x * size

@@ -49,12 +49,14 @@ TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
 CONTACT_RINGS = {"m0": 1.0, "mj": 0.3, "mi": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
 """Shares of closing; the first ring is where the lips meet, whose gap is closed."""
 
-CONTACT_STATIONS = ((0, 9, 0.0001), (1, 8, 0.0001), (2, 7, 0.0002), (3, 6, 0.0008), (4, 6, 0.0014))
-"""Stations that meet, above and below, and how far (m) they pass one another over an open jaw: near the corner the
-measured bridge alone leaves a slit."""
+CONTACT_STATIONS = ((0, 9, 0.0001), (1, 8, 0.0001), (2, 7, 0.0002), (3, 6, 0.0011), (4, 6, 0.0020))
+"""Stations that meet, above and below, and how far (m) they pass one another when shut: near the corner the measured
+bridge alone, or a corner drawn aside, leaves a slit."""
 
 OVERLAP_FROM = 0.25
-"""Share of the measured open mouth from which on they pass one another fully."""
+PRESSED = 0.5
+"""Share of the measured open mouth from which on they pass one another fully, and how much of it they do over a shut
+jaw."""
 
 STICKING_M = 0.0005
 """Lips no farther apart than this stick together, from twice as far on they do not: a hairline is no open mouth."""
@@ -75,7 +77,7 @@ class Contacts:
     Attributes:
         numbers: (C, 2, R) vertices above and below, the ring where the lips meet first.
         shares: (R,) share of the gap's closing.
-        gaps: (C, 5) m from the upper to the lower lip at rest; how far (m) they pass one another over an open jaw; and
+        gaps: (C, 5) m from the upper to the lower lip at rest; how far (m) they pass one another when shut; and
             the share of the gap that the upper lip closes: the lower one does the rest.
     """
 
@@ -265,7 +267,7 @@ def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, move
         for axis in range(3):
             points[v, axis] += bridged * bridge[v, axis]
             moves[v, axis] = 0.0
-    pressed = min(jaw_opening / OVERLAP_FROM, 1.0)
+    pressed = max(PRESSED * closure, min(jaw_opening / OVERLAP_FROM, 1.0))
     for c in range(len(gaps)):
         upper, lower = numbers[c, 0, 0], numbers[c, 1, 0]
         slit = points[upper, 1] - points[lower, 1] + gaps[c, 1]

@@ -17,7 +17,7 @@ from mien.compiling import kernel
 
 from .brows import place_brows, shape_brow, sum_normals
 from .conformation import shape_held, shape_points
-from .contact import WAYS, give_way, keep_off_balls, lift_row, push_before, trace_rows
+from .contact import WAYS, give_way, keep_off_balls, lift_row, push_before, stretch_of, trace_rows
 from .eyes import fill_radii, look_at, place_eye, place_spot
 from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
@@ -359,7 +359,8 @@ def pose_heads(
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
         edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
-        keep_off_balls(skin, lid_numbers, clear_of_balls, balls, held)
+        stretch = stretch_of(amounts[frame], kinds, axes)
+        keep_off_balls(skin, lid_numbers, clear_of_balls, stretch, balls, held)
         run = flat[frame, 3 * parts[TEETH] :]
         for i in range(len(rest)):
             run[i] = rest[i]
