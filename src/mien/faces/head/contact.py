@@ -42,8 +42,8 @@ cage that is pushed takes its subdivided skin only a part of the way."""
 LID_GAP = 0.99
 """Share of the least of its distances from the ball, shut, at rest and wide open, that a lid keeps."""
 
-SAG = 0.05
-"""How much farther off, in radii, a cage must stay whose lids are stretched by 1: its refined skin sags more."""
+SAG = 0.2
+"""How much farther off, in radii, a cage must stay whose lids are stretched by 1 both ways: its refined skin sags."""
 
 OVER_CHIN_M = 0.009
 """How high the lower gums stay above the end of the chin at least; at rest it is 31 mm."""
@@ -226,12 +226,12 @@ def ball_gaps(lids: Lids, open_lids: Sequence[Points], balls: Floats) -> Floats:
 
 @kernel()
 def stretch_of(amounts, kinds, axes):
-    """How far the lids of either eye are wider and higher than at rest, both added, from steps (K,) of the shape."""
+    """How far the lids of either eye are wider times higher than at rest, from steps (K,) of the shape."""
     wider, higher = 0.0, 0.0
     for k in range(len(amounts)):
         if kinds[k] == LIDS:
             wider, higher = max(wider, amounts[k] * axes[k, 0]), max(higher, amounts[k] * axes[k, 1])
-    return wider + higher
+    return wider * higher
 
 
 @kernel()
