@@ -14,6 +14,9 @@ from soundness import RIGID, Posed, flipped_polygons, lids_into_balls_mm, skin_i
 
 PARKE = ("Parke 1974, fig", "Parke 1974, section 3.5")
 NO_SHAPE = ("color", "target", "light", "viewer")
+A_THIRD_OF_A_PIXEL_MM = 0.1
+"""Of the default picture: what cuts an eyeball no deeper is not seen."""
+
 GAZE = ("eye.turn", "eye.nod")
 LEFT_ALONE = ("mouth.upper_lip", "mouth.tuck", "jaw.rotation")
 """What opens the lips of a mouth at rest: a raised upper lip, a tucked lower one, the jaw."""
@@ -109,8 +112,12 @@ MEASURES = (
     Measure("teeth through the skin, mm", 0.5, lambda p: through_skin_mm(p, "teeth", "gums")),
     Measure("tongue through the skin, mm", 0.5, lambda p: through_skin_mm(p, "tongue")),
     Measure("eyeballs through the skin, mm", 0.5, skin_into_balls_mm),
-    Measure("lids into the eyeballs, mm", 0.0, lids_into_balls_mm),
-    Measure("lids wide open into the eyeballs, mm", 0.0, lambda p: lids_into_balls_mm(changed(p, eyelid__opening=1.0))),
+    Measure("lids into the eyeballs, mm", A_THIRD_OF_A_PIXEL_MM, lids_into_balls_mm),
+    Measure(
+        "lids wide open into the eyeballs, mm",
+        A_THIRD_OF_A_PIXEL_MM,
+        lambda p: lids_into_balls_mm(changed(p, eyelid__opening=1.0)),
+    ),
     Measure("flipped polygons", 0.0, lambda p: float(len(flipped_polygons(p)))),
     Measure("eye between shut lids, pixels", 0.0, eyes_shown, dear=True),
     Measure("mouth between closed lips, pixels", 0.0, mouth_shown, dear=True),
