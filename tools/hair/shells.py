@@ -337,9 +337,9 @@ def tube(
     flat: float = 1.0,
     locks: int = 5,
     twist: float = 0.0,
-    bright: float = 1.0,
+    furrow: float = 0.07,
 ) -> Shell:
-    """A closed tube along a spine (K, 3) m with radii (K,): both ends rounded shut."""
+    """A closed tube along a spine (K, 3) m with radii (K,): both ends rounded shut, locks between furrows."""
     ahead = np.gradient(spine, axis=0)
     ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
     side = np.cross(ahead, np.array([0.3, 0.2, 1.0]))
@@ -348,12 +348,12 @@ def tube(
     angle = (np.arange(sides) + 0.5) * 2 * np.pi / sides
     turn = angle[None] + twist * np.linspace(0.0, 1.0, len(spine))[:, None]
     lock = np.sin(locks * angle)[None] * np.ones((len(spine), 1))
-    size = radii[:, None] * (1.0 + 0.07 * lock)
+    size = radii[:, None] * (1.0 + furrow * lock)
     ring = spine[:, None] + size[..., None] * (
         side[:, None] * np.cos(turn)[..., None] + flat * up[:, None] * np.sin(turn)[..., None]
     )
     points = ring.transpose(1, 0, 2)
-    shine = bright + 0.14 * lock.T + 0.0 * points[..., 0]
+    shine = 1.0 + 2.0 * furrow * lock.T
     shell = _close(points, np.stack([shine, np.zeros_like(shine)], axis=2), True)
     rows = len(spine)
     last = np.arange(sides) * rows + rows - 1
