@@ -43,6 +43,8 @@ SETTINGS = "settings"
 
 KERNELS = (
     "mien.faces.head.carrying",
+    "mien.faces.head.conformation",
+    "mien.faces.head.contact",
     "mien.faces.head.posing",
     "mien.formats.palette",
     "mien.formats.yuv",
@@ -130,7 +132,7 @@ def make_pose(
         RangeError: a value is not finite or out of its range.
         MienError: another person cannot be mixed in.
     """
-    pose = face.neutral if seed is None else random_person(face, seed)
+    pose = Pose.neutral(face.parameters) if seed is None else random_person(face, seed)
     pose = mix_people(pose, face, [(load_face(address), share) for address, share in (mix or {}).items()])
     for name, amount in _amounts(presets).items():
         if name not in face.presets:

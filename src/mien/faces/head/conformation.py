@@ -197,7 +197,8 @@ class Shaper:
             steps, shares = self._make(taken)
             points, last = self._points[-1][0].copy(), shares[-1]
             going = np.ascontiguousarray(amounts[list(taken)])
-            shape_still(points, going, *steps, last.starts, last.rows, last.weights)
+            if taken:  # to load compiled code takes longer than all else here
+                shape_still(points, going, *steps, last.starts, last.rows, last.weights)
             _remember(self._still, key, points)
         return self._still[key]
 
