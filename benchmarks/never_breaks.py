@@ -2,7 +2,7 @@
 
 All of Parke's parameters are drawn at random, in every other pose many of them at the ends of their ranges, and the
 eyes look anywhere ahead; ``--corners`` puts every parameter of the table at one of its ends. What needs pictures is
-measured on every tenth pose.
+measured on every ninth pose.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # where the measur
 from breaking import MEASURES, Measure, corner_pose, parke_pose
 from mien.faces.head import Head
 
-EVERY = 10
+EVERY = 9
 
 
 def main() -> None:
