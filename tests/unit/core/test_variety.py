@@ -23,6 +23,12 @@ def test_chance_changes_the_shape_and_the_colours_and_moves_nothing():
     assert not any(name.startswith(("jaw.rotation", "mouth.", "eyelid.opening", "target.")) for name in changed)
 
 
+def test_nobody_is_grey_by_chance():
+    for seed in range(60):
+        red, green, blue = (random_person(face("head"), seed)[f"skin.color.{name}"] for name in ("red", "green", "blue"))
+        assert red > green > blue
+
+
 def test_people_spread_as_their_rows_say():
     head = face("head")
     rows = [row for row in head.parameters if row.spread]

@@ -29,7 +29,7 @@ def palettes() -> Mapping[str, Mapping[str, Rgb]]:
 
 
 def palette_presets() -> dict[str, Preset]:
-    """Each palette as a preset of the colour rows."""
+    """Each palette as a preset of the colour rows; one without any colour is of the kind ``grey levels``."""
     out = {}
     for name, colors in palettes().items():
         values = {
@@ -37,5 +37,7 @@ def palette_presets() -> dict[str, Preset]:
             for part, rgb in colors.items()
             for channel, value in zip(("red", "green", "blue"), rgb, strict=True)
         }
-        out[name] = Preset(name, "palette", values, f"Skin, lips, brows, hair, eyes and garment in {name}.")
+        grey = all(red == green == blue for red, green, blue in colors.values())
+        kind = "grey levels" if grey else "palette"
+        out[name] = Preset(name, kind, values, f"Skin, lips, brows, hair, eyes and garment in {name}.")
     return out
