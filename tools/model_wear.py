@@ -16,8 +16,8 @@ from mien.faces.head.hair import STEP_M, STEP_SHADE
 from mien.faces.head.measured import Archive, archive
 
 OUT = Path(__file__).parents[1] / "src/mien/faces/head/data/wear.arrays"
-SUNK_M = -0.0010
-"""How deep the rim of a beard lies below the skin."""
+SUNK_M, RIM_M = -0.0010, -0.0060
+"""How deep a beard begins below the skin, and its rim, which subdivision smooths as an edge and so draws out."""
 
 
 def smooth(x: np.ndarray) -> np.ndarray:
@@ -63,7 +63,7 @@ BEARDS = {  # thickness in m, darkness of the skin beneath, least share of the s
     "stubble": (0.0, 0.34, 0.0, (moustache, chin, jaw, sides_of_mouth)),
     "moustache": (0.0062, 0.5, 0.04, (moustache,)),
     "goatee": (0.0065, 0.5, 0.16, (moustache, chin, sides_of_mouth)),
-    "full": (0.0090, 0.6, 0.06, (moustache, chin, jaw, sides_of_mouth)),
+    "full": (0.0090, 0.8, 0.06, (moustache, chin, jaw, sides_of_mouth)),
 }
 
 
@@ -78,7 +78,7 @@ def beard(head: Archive, thick_m: float, dark: float, thin: float, regions: tupl
     grown[bare | ~np.isin(np.arange(len(points)), head.quads[head.groups == skin])] = 0.0
     grown = 0.5 * (grown + grown[mirror])
     grown[grown < 0.02] = 0.0
-    out = {"tint": np.rint(dark * grown / STEP_SHADE).astype(np.uint8)}
+    out = {"tint": np.rint(dark * smooth(grown / 0.6) / STEP_SHADE).astype(np.uint8)}
     quads = head.quads[(head.groups == skin) & (grown[head.quads].max(axis=1) > 0.0)]
     if thick_m == 0.0:
         quads = quads[:0]
@@ -86,12 +86,12 @@ def beard(head: Archive, thick_m: float, dark: float, thin: float, regions: tupl
     own = grown[index]
     # Thin on the cheeks, where a steep rim would catch the light.
     full = thick_m * (0.4 + 0.6 * smooth((points[index, 2] - 0.045) / 0.035))
-    height = SUNK_M + (full - SUNK_M) * smooth((own - 0.1) / 0.9)
+    height = SUNK_M + (full - SUNK_M) * smooth((own - 0.1) / 0.9) + (RIM_M - SUNK_M) * smooth(1.0 - own / 0.7)
     strand = 1.0 + 0.10 * np.where((np.abs(points[index, 0]) * 260).astype(int) % 2 == 0, 1.0, -1.0)
     number = np.zeros(len(points), dtype=np.int64)
     number[index] = np.arange(len(index))
     # At the rim the colour of the tinted skin beneath; what is drawn is the square of the share.
-    skin_share = np.maximum(1.0 - smooth((own - 0.25) / 0.45), thin)
+    skin_share = np.maximum(1.0 - smooth((own - 0.2) / 0.4), thin)
     shade = np.stack([strand * (0.85 + 0.15 * own), np.sqrt(skin_share)], axis=1)
     return {
         **out,
