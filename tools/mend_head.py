@@ -7,8 +7,8 @@ import numpy as np
 FRIENDLIER = 0.10
 """Share of the measured smile in the neutral face: the reference's own rest looks stern."""
 
-LIP, MOUTH = 2, 5
-"""Columns of the region weights."""
+LIP = 2
+"""Column of the lips in the region weights."""
 
 
 def mend(head: dict[str, np.ndarray], morphs: dict[str, np.ndarray]) -> None:

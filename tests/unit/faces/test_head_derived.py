@@ -12,7 +12,7 @@ POINTS = np.array([[0.0, 0.0, 0.1], [0.02, 0.0, 0.1], [-0.02, 0.0, 0.1], [0.02, 
 
 def tables(monkeypatch, mixtures=(), bells=()):
     rows = {"mixtures": mixtures, "bells": bells}
-    monkeypatch.setattr(derived, "read_rows", rows.__getitem__)
+    monkeypatch.setattr(derived, "shipped_rows", rows.__getitem__)
 
 
 def test_a_bell_moves_its_middle_fully_its_reach_by_1_e_and_nothing_far_away_or_beyond_the_midline(monkeypatch):
@@ -43,6 +43,6 @@ def test_an_expression_that_nobody_measured_is_refused(monkeypatch):
         derived.derived_morphs({"whole": np.ones((5, 3))}, POINTS, {})
 
 
-@pytest.mark.parametrize("row", derived.read_rows("bells"), ids=lambda row: f"{row['morph']} {row['vertex']}")
+@pytest.mark.parametrize("row", derived.shipped_rows("bells"), ids=lambda row: f"{row['morph']} {row['vertex']}")
 def test_bells_stand_on_named_vertices(row):
     assert row["vertex"] in archive().vertex

@@ -5,8 +5,8 @@ import pytest
 
 from mien.faces import load_face
 from mien.faces.head import folds
-from mien.faces.head.derived import read_rows
 from mien.faces.head.measured import archive
+from mien.faces.head.shipped import shipped_rows
 from support import in_python
 
 HEAD = load_face("head")
@@ -55,7 +55,7 @@ def test_a_full_fold_takes_its_share_of_light_and_two_drivers_no_more_than_all_o
 
 
 def test_folds_and_their_drivers_name_the_same_and_what_there_is():
-    assert {row["fold"] for row in read_rows("folds")} == {row["fold"] for row in read_rows("fold_drivers")}
-    assert all(row["vertex"] in archive().vertex for row in read_rows("folds"))
-    assert all(row["parameter"] in TABLE for row in read_rows("fold_drivers"))
+    assert {row["fold"] for row in shipped_rows("folds")} == {row["fold"] for row in shipped_rows("fold_drivers")}
+    assert all(row["vertex"] in archive().vertex for row in shipped_rows("folds"))
+    assert all(row["parameter"] in TABLE for row in shipped_rows("fold_drivers"))
     assert (light({}) == 1.0).all()

@@ -28,7 +28,7 @@ from mien.core.mesh import Ints, Points
 from .angles import turn
 from .measured import Floats
 from .moves import Move
-from .regions import MM, weigh_region
+from .regions import MM_PER_M, weigh_region
 from .table import conformation_rows
 from .units import DEG, PARKE_UNIT_M
 
@@ -108,7 +108,7 @@ def _origin(text: str, side: int, centres: Points) -> tuple[float, float, float]
     if text == "eye":
         x, y, z = (float(value) for value in centres[0 if side > 0 else 1])
         return x, y, z
-    x, y, z = (float(number) / MM for number in text.split()) if text else (0.0, 0.0, 0.0)
+    x, y, z = (float(number) / MM_PER_M for number in text.split()) if text else (0.0, 0.0, 0.0)
     return (-x if side < 0 else x), y, z
 
 
@@ -259,7 +259,7 @@ def shape_points(points, steps, starts, rows, weights):
 
     Args:
         points: changed.
-        steps: amounts (K,), kinds, axes and origins of ``Steps``.
+        steps: amounts (K,), kinds, axes and origins of ``Shaper.arrays``.
         starts: rows, weights: of ``Shares``.
     """
     amounts, kinds, axes, origins = steps

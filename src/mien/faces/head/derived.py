@@ -8,10 +8,7 @@ Source: the muscles are those of Ekman, Friesen and Hager 2002, Facial Action Co
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
-from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
@@ -19,6 +16,7 @@ from mien.core import UnknownNameError, exact
 from mien.core.mesh import Points
 
 from .falloff import own_side
+from .shipped import shipped_rows
 from .units import MM
 
 BELL_END = 0.01
@@ -49,21 +47,14 @@ def derived_morphs(morphs: Mapping[str, Points], points: Points, vertex: Mapping
         for name, part in parts.items():
             out[name] = out[name] + part if name in out else part
 
-    for row in read_rows("mixtures"):
+    for row in shipped_rows("mixtures"):
         share = float(row["share"])
         left, right = halves(morphs, points, row["part"])
         add(row, share * left, share * right)
-    for row in read_rows("bells"):
+    for row in shipped_rows("bells"):
         place = points[vertex[row["vertex"]]]
         add(row, _bell(points, place, 1, row), _bell(points, place, -1, row))
     return out
-
-
-@cache
-def read_rows(table: str) -> tuple[dict[str, str], ...]:
-    """Rows of ``data/TABLE.csv``."""
-    text = files(__package__).joinpath(f"data/{table}.csv").read_text(encoding="utf-8")
-    return tuple(csv.DictReader(text.splitlines()))
 
 
 def halves(morphs: Mapping[str, Points], points: Points, name: str) -> tuple[Points, Points]:

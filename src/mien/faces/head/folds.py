@@ -20,9 +20,9 @@ from mien.compiling import kernel
 from mien.core import ParameterTable
 from mien.core.mesh import Ints, Points
 
-from .derived import read_rows
 from .measured import Archive, Floats, Kind
 from .moves import Move
+from .shipped import shipped_rows
 from .table import head_table
 
 TINT = (0.80, 1.00, 1.08)
@@ -75,7 +75,7 @@ def drivers() -> list[Driver]:
     """The rows of ``data/fold_drivers.csv``, left ones first."""
     table, out = head_table(), []
     for side, end in enumerate((".left", ".right")):
-        for row in read_rows("fold_drivers"):
+        for row in shipped_rows("fold_drivers"):
             name = row["parameter"] if row["parameter"] in table.index else row["parameter"] + end
             out.append(Driver(row["fold"], side, name, table[name].default, float(row["gain"])))
     return out
@@ -94,11 +94,11 @@ def fold_moves(morphs: Mapping[str, Points]) -> list[Move]:
 
 def folds_of(archive: Archive, table: ParameterTable, skin: Ints, kind: Kind) -> Folds:
     """The folds of a head whose vertices are copies of the measured vertices ``skin`` (K,)."""
-    names = list(dict.fromkeys(row["fold"] for row in read_rows("folds")))
+    names = list(dict.fromkeys(row["fold"] for row in shipped_rows("folds")))
     made = [(table.index[each.parameter], 2 * names.index(each.fold) + each.side) for each in drivers()]
     rules = [(each.rest, each.gain) for each in drivers()]
     places, dark = [], []
-    for row in read_rows("folds"):
+    for row in shipped_rows("folds"):
         left = archive.vertex[row["vertex"]]
         right = int(archive.mirror[left])
         # The midline belongs to both halves.

@@ -1,7 +1,6 @@
 """The parametric head: a pose goes in, coloured polygons come out.
 
-The order in which the parameters act: measured expressions, mouth, brows; the jaw; contact of the lips; the lids,
-which ride on what lies beneath; eyes, brows, lashes, teeth and tongue; then the whole head on its neck.
+``posing`` says in which order the parameters act, and ``data/order.csv`` has it as data.
 
 Source: Parke 1974, chapter 3.
 """

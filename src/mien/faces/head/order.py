@@ -5,11 +5,11 @@ Source: Parke 1974, figure 3.1 and chapter 3.
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import cache
-from importlib.resources import files
+
+from .shipped import shipped_rows
 
 MECHANISMS = ("interpolation", "scaling", "translation", "rotation", "procedure", "colour")
 
@@ -53,10 +53,9 @@ def titles_by_mechanism(node: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
 @cache
 def acts() -> tuple[Act, ...]:
     """Rows of ``data/order.csv``, first to last."""
-    text = files(__package__).joinpath("data/order.csv").read_text(encoding="utf-8")
     return tuple(
         Act(row["function"], tuple(row["node"].split()), row["mechanism"], tuple(row["parameters"].split()))
-        for row in csv.DictReader(text.splitlines())
+        for row in shipped_rows("order")
     )
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 
 from mien.core import Preset, exact
+
+from .shipped import shipped_rows
 
 Rgb = tuple[float, float, float]
 
@@ -23,9 +23,10 @@ def linear(hex_color: str) -> Rgb:
 @cache
 def palettes() -> Mapping[str, Mapping[str, Rgb]]:
     """Palette name -> color name (``skin`` ...) -> linear RGB."""
-    text = files(__package__).joinpath("data/palettes.csv").read_text(encoding="utf-8")
-    rows = csv.DictReader(text.splitlines())
-    return {row.pop("palette"): {name: linear(value) for name, value in row.items()} for row in rows}
+    return {
+        row["palette"]: {name: linear(value) for name, value in row.items() if name != "palette"}
+        for row in shipped_rows("palettes")
+    }
 
 
 def palette_presets() -> dict[str, Preset]:

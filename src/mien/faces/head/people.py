@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 
 from mien.core import LoadError, MienError, UnknownNameError
@@ -16,6 +15,7 @@ from .jaw import SHARES
 from .measured import archive
 from .palettes import palette_presets
 from .residual import Residual, read_residual
+from .shipped import shipped_text
 from .wear import NONE, beard_styles, glasses_styles
 
 FORMAT, VERSION = "mien-face", 1
@@ -25,16 +25,14 @@ KEYS = {"format", "version", "name", "hair", "palette", "jaw", "values", "doc", 
 @cache
 def people() -> Mapping[str, Mapping[str, str]]:
     """Rows of ``data/people.json``: name -> hair, beard, glasses, palette, jaw, doc."""
-    text = files(__package__).joinpath("data/people.json").read_text(encoding="utf-8")
-    rows: dict[str, dict[str, str]] = json.loads(text)
+    rows: dict[str, dict[str, str]] = json.loads(shipped_text("people.json"))
     return rows
 
 
 @cache
 def shapes() -> Mapping[str, Mapping[str, float]]:
     """Rows of ``data/shapes.json``: name of a person -> values of the shape that are not at rest."""
-    text = files(__package__).joinpath("data/shapes.json").read_text(encoding="utf-8")
-    rows: dict[str, dict[str, float]] = json.loads(text)
+    rows: dict[str, dict[str, float]] = json.loads(shipped_text("shapes.json"))
     return rows
 
 

@@ -1,7 +1,9 @@
 """The kernels that pose a head, and the order in which its parameters act.
 
-Moves of the skin come first (``moves``); what is more than moves follows here: lips, jaw, contact of the lips, the
-lids, which ride on what lies beneath; eyes, lashes, brows, teeth and tongue; then the whole head on its neck.
+Moves of the skin come first (``moves``): expressions, grooves of folds, interpolations of the shape. What is more
+than moves follows here: lips, jaw, contact of the lips, and the lids, which ride on what lies beneath; the steps of
+the shape, for the skin and for what is inside the mouth; contact of lids with eyeballs and of lips with teeth; eyes,
+lashes, brows and beard; shadows; then the whole head is scaled, and turned on its neck. Folds are shaded last.
 
 Source: Parke 1974, chapter 3.
 """

@@ -5,19 +5,18 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 
 from mien.core import Preset
 
 from .palettes import palette_presets
+from .shipped import shipped_text
 
 
 @cache
 def head_presets() -> Mapping[str, Preset]:
     """Expressions first, then palettes."""
-    text = files(__package__).joinpath("data/expressions.json").read_text(encoding="utf-8")
     expressions = {
         row["name"]: Preset(row["name"], "expression", row["values"], row["doc"], row["source"])
-        for row in json.loads(text)
+        for row in json.loads(shipped_text("expressions.json"))
     }
     return {**expressions, **palette_presets()}

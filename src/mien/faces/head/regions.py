@@ -6,10 +6,8 @@ does not meet before does not meet after.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
@@ -17,17 +15,17 @@ from mien.core import exact
 from mien.core.mesh import Points
 
 from .measured import Floats
+from .shipped import shipped_rows
 from .vectors import length
 
-MM = 1000.0
+MM_PER_M = 1000.0
 
 
 @cache
 def region_rows() -> Mapping[str, tuple[tuple[str, str, tuple[float, ...]], ...]]:
     """Rows of ``data/regions.csv``: name -> forms, axes and numbers in millimetres; the forms are multiplied."""
-    text = files(__package__).joinpath("data/regions.csv").read_text(encoding="utf-8")
     out: dict[str, list[tuple[str, str, tuple[float, ...]]]] = {}
-    for row in csv.DictReader(text.splitlines()):
+    for row in shipped_rows("regions"):
         numbers = tuple(float(number) for number in row["numbers"].split())
         out.setdefault(row["region"], []).append((row["shape"], row["axis"], numbers))
     return {name: tuple(forms) for name, forms in out.items()}
@@ -37,7 +35,7 @@ def weigh_region(name: str, points: Points) -> Floats:
     """(N,) 0..1, how much points (N, 3) m belong to a region on the left or on the midline."""
     near, weight = np.arange(len(points)), np.ones(len(points))
     for shape, axis, numbers in region_rows()[name]:
-        weight *= FORMS[shape](points[near] * MM, axis, *numbers)
+        weight *= FORMS[shape](points[near] * MM_PER_M, axis, *numbers)
         near, weight = near[weight != 0.0], weight[weight != 0.0]
     out = np.zeros(len(points))
     out[near] = weight

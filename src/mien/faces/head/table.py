@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
 
 from mien.core import Parameter, ParameterTable, Pose, both_sides, color
 
 from .palettes import DEFAULT, linear, palettes
+from .shipped import shipped_rows
 
 SCENE = "Parke 1974, section 3.5"
 
@@ -40,13 +39,11 @@ PLACES = (
 )
 
 
-@cache
 def face_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source."""
-    return _read_rows("parameters.csv")
+    return shipped_rows("parameters")
 
 
-@cache
 def conformation_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/conformation.csv``, in the order in which they act.
 
@@ -54,12 +51,7 @@ def conformation_rows() -> tuple[dict[str, str], ...]:
     or head), axis, region and origin; the largest displacement at both ends, mm; and the spread among people, by
     least squares on the fifty identities of ICT-FaceKit Light (chosen for brows and teeth, which these do not have).
     """
-    return _read_rows("conformation.csv")
-
-
-def _read_rows(name: str) -> tuple[dict[str, str], ...]:
-    text = files(__package__).joinpath("data", name).read_text(encoding="utf-8")
-    return tuple(csv.DictReader(text.splitlines()))
+    return shipped_rows("conformation")
 
 
 @cache

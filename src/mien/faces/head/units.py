@@ -7,6 +7,3 @@ PARKE_UNIT_M = 0.00016
 
 DEG = math.pi / 180.0
 MM = 0.001
-
-PARKE_LID_RADIUS = 1.1
-"""Parke's lids lie on a sphere of 1.1 eyeball radii (1974, section 3.1.2); ours follow measured radii, see the ADR."""
