@@ -61,6 +61,8 @@ def parse_mix(texts: Sequence[str] | None) -> dict[str, float]:
         name, equals, number = text.rpartition("=")
         if not (name and equals):
             raise MienError(f"--mix {text}: want FACE=SHARE, as in --mix head:ada=0.3")
+        if name.strip() in shares:
+            raise MienError(f"--mix {text}: {name.strip()} is mixed in already — give one share of each person")
         shares[name.strip()] = _number(number, f"--mix {text}")
     return shares
 

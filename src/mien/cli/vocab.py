@@ -36,6 +36,10 @@ def vocab(
     mien vocab --loss arkit head
     mien vocab --loss facs arkit --json
     """
+    from mien.core import MienError
+
+    if loss is not None and name is not None:
+        raise MienError(f"vocab {name}: --loss takes both of its names itself — leave {name!r} out")
     if loss is not None:
         _show_loss(*loss, as_json)
     elif name is not None:

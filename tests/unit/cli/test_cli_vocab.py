@@ -56,6 +56,9 @@ def test_loss_on_a_face_and_to_another_vocabulary(capfd: pytest.CaptureFixture[s
         (["render", "head", "--au", "3", "-o", "a.png"], "unknown action unit 'AU3'"),
         (["render", "head", "--preset", "smile=2", "-o", "a.png"], "from 0 to 1"),
         (["render", "head", "--preset", "smile=much", "-o", "a.png"], "'much' is not a number"),
+        (["vocab", "facs", "--loss", "arkit", "head"], "leave 'facs' out"),
+        (["render", "head", "--mix", "head:ada", "-o", "a.png"], "want FACE=SHARE"),
+        (["render", "head", "--mix", "head:ada=0.1", "--mix", "head:ada=0.2", "-o", "a.png"], "mixed in already"),
     ],
 )
 def test_mistakes_are_explained(arguments: list[str], message: str, capfd: pytest.CaptureFixture[str]) -> None:
