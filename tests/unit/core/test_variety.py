@@ -32,7 +32,8 @@ def test_nobody_is_grey_by_chance():
 def test_people_spread_as_their_rows_say():
     head = face("head")
     rows = [row for row in head.parameters if row.spread]
-    drawn = np.array([[random_person(head, seed)[row.name] for row in rows] for seed in range(300)])
+    people = [random_person(head, seed) for seed in range(300)]
+    drawn = np.array([[person[row.name] for row in rows] for person in people])
     wide = (drawn.std(axis=0) / [row.spread for row in rows], drawn.mean(axis=0) - [row.default for row in rows])
     assert np.all(np.abs(wide[0] - 0.98) < 0.2)
     assert np.all(np.abs(wide[1]) < 0.25 * np.array([row.spread for row in rows]))
@@ -40,9 +41,8 @@ def test_people_spread_as_their_rows_say():
 
 def test_both_sides_of_a_face_are_nearly_alike():
     head = face("head")
-    apart = [
-        random_person(head, seed)["jaw.width.left"] - random_person(head, seed)["jaw.width.right"] for seed in range(80)
-    ]
+    people = [random_person(head, seed) for seed in range(80)]
+    apart = [person["jaw.width.left"] - person["jaw.width.right"] for person in people]
     spread = head.parameters["jaw.width.left"].spread
     assert 0.0 < np.std(apart) < 0.2 * spread
 
