@@ -69,7 +69,7 @@ def _keep_rows(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     return out
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=8)
 def refine(topology: Topology) -> Refinement:
     """One step of refinement. New vertices follow the old ones: first one a polygon, then one an edge."""
     chosen = np.array([part.material.subdivide for part in topology.parts], dtype=bool)[topology.part_of_polygon]

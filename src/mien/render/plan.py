@@ -61,7 +61,7 @@ class Plan:
     columns: tuple[NDArray[np.generic], ...]
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=8)
 def plan_shading(topology: Topology, flat: bool, colored_by_polygon: bool = False) -> Plan:
     """The plan of a topology; ``flat`` makes every polygon flat, and both that or a colour of its own set it apart."""
     vertices: list[Ints] = []

@@ -170,7 +170,6 @@ class Head:
             self._jaw,
             Eyes(np.column_stack([centres, [radius, radius]]), np.array([kappa, -kappa])),
             mouth_regions(archive, measured),
-            brows.brow_regions(measured),
             brows.brow_strips(archive, lift_m),
             lashes(archive),
         )

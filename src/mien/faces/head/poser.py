@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -13,7 +13,7 @@ from mien.core.mesh import Ints, Points
 from mien.core.sparse import SparseMatrix
 
 from . import posing
-from .brows import BrowRegions, BrowStrips, brow_moves
+from .brows import BrowStrips, brow_moves, brow_regions
 from .carrying import Carried, bind_to_skin
 from .conformation import Shaper, blend_moves, no_fields
 from .contact import ball_gaps, before_teeth
@@ -29,6 +29,7 @@ from .muscles import muscle_moves
 from .neck import PIVOT, neck_share
 from .parts import Layout
 from .rest import REST_OPENING
+from .table import head_table
 from .teeth import TEETH_FIELDS, teeth_field
 from .tongue import tongue_of
 
@@ -84,7 +85,6 @@ class Poser:
         jaw: how it turns.
         eyes: where they are.
         mouth: weights of the mouth's deformers.
-        brows: weights of the brows' deformers.
         strips: the hair of the brows.
         lashes: those of both eyes.
     """
@@ -99,21 +99,11 @@ class Poser:
         jaw: Jaw,
         eyes: Eyes,
         mouth: MouthRegions,
-        brows: BrowRegions,
         strips: BrowStrips,
         lashes: Lashes,
     ) -> None:
         self._columns = np.array([table.index[name] for name in posing.CONTROLS], dtype=np.int64)
-        moves = [
-            *(
-                *muscle_moves(measured.morphs),
-                *fold_moves(measured.morphs),
-                *brow_moves(brows, measured),
-                *smile_moves(measured),
-            ),
-            *blend_moves(directions(measured.kind)),
-        ]
-        self._moves: Moves = moves_of(moves, table)
+        self._moves = skin_moves(measured)
         self._folds = folds_of(archive, table, layout.skin, measured.kind)
         centres = eyes.balls[:, :3]
         first, behind = layout.span["teeth"].start, layout.span["tongue"].stop
@@ -207,6 +197,19 @@ class Poser:
             shape = self._shaper.arrays(amounts[run])
             filled = skins[run], points[run], flat[run], normals, colors[run]
             posing.pose_heads(controls[run], *self._constants, rest, *shape, *scratch, *filled)
+
+
+@lru_cache(maxsize=4)
+def skin_moves(measured: Measured) -> Moves:
+    """The moves of a skin; people who differ by parameters alone share them."""
+    moves = [
+        *muscle_moves(measured.morphs),
+        *fold_moves(measured.morphs),
+        *brow_moves(brow_regions(measured), measured),
+        *smile_moves(measured),
+        *blend_moves(directions(measured.kind)),
+    ]
+    return moves_of(moves, head_table())
 
 
 def _teeth_field(teeth: Points, count: int, name: str) -> Points | None:
