@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 SECTIONS = {
-    "Faces": ("hero", "three_views", "people", "shading"),
+    "Faces": ("hero", "three_views", "people", "strangers", "shading"),
     "Expression": ("expressions", "presets", "mouth", "gaze"),
     "Motion": ("blink", "jaw", "strip", "filmstrip", "curves"),
     "Parke's pictures": (

@@ -24,7 +24,8 @@ class Parameter:
 
     Left and right are the face's own. A name that ends in ``.left`` has a twin that ends in ``.right``; the name
     without either sets both. ``odd`` marks a quantity that changes its sign in the mirror (a turn to the left).
-    ``spread`` is the standard deviation among people, 0 for what moves or what they do not differ in.
+    ``spread`` is the standard deviation among people, 0 for what moves or what they do not differ in; ``usual`` is
+    their mean, None where that is the default.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Parameter:
     doc: str = ""
     source: str = ""
     spread: float = 0.0
+    usual: float | None = None
 
     def __post_init__(self) -> None:
         if not self.low <= self.default <= self.high:

@@ -29,7 +29,8 @@ def random_person(face: Face, seed: int) -> Pose:
             common = around(stream(seed, row.name.removesuffix(SIDES[0]).removesuffix(SIDES[1])), 0.0, REACH)
             own = around(stream(seed, row.name), 0.0, REACH)
             draw = ALIKE * common + (1.0 - ALIKE) * own if row.name.endswith(SIDES) else common
-            values[row.name] = min(max(row.default + row.spread * draw, row.low), row.high)
+            usual = row.default if row.usual is None else row.usual
+            values[row.name] = min(max(usual + row.spread * draw, row.low), row.high)
     return Pose.neutral(face.parameters).replace(values)
 
 

@@ -39,6 +39,11 @@ def test_people_spread_as_their_rows_say():
     assert np.all(np.abs(wide[1]) < 0.25 * np.array([row.spread for row in rows]))
 
 
+def test_who_is_drawn_does_not_depend_on_who_is_asked():
+    ada, tom = (random_person(face(name), 5) for name in ("head:ada", "head:tom"))
+    np.testing.assert_array_equal(ada.values, tom.values)
+
+
 def test_both_sides_of_a_face_are_nearly_alike():
     head = face("head")
     people = [random_person(head, seed) for seed in range(80)]

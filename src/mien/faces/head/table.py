@@ -65,7 +65,7 @@ def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
     if not own:
         return table
     values = Pose.neutral(table).replace(dict(own))
-    return ParameterTable(tuple(replace(row, default=values[row.name]) for row in table))
+    return ParameterTable(tuple(replace(row, default=values[row.name], usual=row.default) for row in table))
 
 
 def _face(cells_of: tuple[dict[str, str], ...]) -> list[Parameter]:
