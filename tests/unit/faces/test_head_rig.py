@@ -11,8 +11,10 @@ from mien.core.rig import unmoved
 from mien.faces.head.head import Head
 from mien.faces.head.measured import archive
 from mien.faces.head.neck import PIVOT
+from mien.vocab import vocabulary
 
 HEADS = {"subdivided": Head(), "classic": Head().unsubdivided}
+RESTING = HEADS["classic"].rig(HEADS["classic"].neutral)
 MOVED = {
     **{"head.turn": 30.0, "head.nod": -12.0, "head.tilt": 6.0, "jaw.rotation": 14.0, "jaw.side": 0.6},
     **{"jaw.forward": 0.5, "eye.turn.left": 20.0, "eye.nod.right": -15.0, "target.x": 0.2},
@@ -86,6 +88,16 @@ def test_joints_of_other_proportions_turn_where_they_are() -> None:
     np.testing.assert_allclose(places[rigid], still[rigid], atol=1e-6)
     np.testing.assert_allclose(places, still, atol=3e-4)  # what shapes a face scales the teeth after the jaw has turned
     assert rig.pivots[3][0] > head.rig(head.neutral).pivots[3][0] + 0.002  # the left eye is farther out
+
+
+@pytest.mark.parametrize("name", [name for name in vocabulary("arkit").names if not name.startswith(("eye", "jaw"))])
+def test_no_expression_moves_skull_or_jaw(name: str) -> None:
+    # Lips rolled in press on the front teeth, which give way; skull and jaw do not.
+    head = HEADS["classic"]
+    rest = head.shape(head.neutral).points
+    motion = RESTING.motion(rest, head.shape(mien.pose_from("arkit", {name: 1.0}, head)).points)
+    np.testing.assert_allclose(motion.turns[1:3], [np.eye(3)] * 2, atol=1e-12)
+    np.testing.assert_allclose(motion.shifts[1:3], 0.0, atol=1e-12)
 
 
 def test_every_face_that_ships_has_joints() -> None:

@@ -56,8 +56,10 @@ def _rigid(layout: Layout, joint: str) -> Ints:
         return _numbers(layout.span[joint])[-layout.sides :]  # the ring farthest back
     if joint == "body":
         return _numbers(layout.span["collar"])
-    lower = layout.lower["teeth"]
-    return _numbers(layout.span["teeth"])[lower if joint == "jaw" else ~lower]
+    lower, depth = layout.lower["teeth"], layout.rest["teeth"][:, 2]
+    row = lower if joint == "jaw" else ~lower
+    # Lips that press on the front teeth make them give way; nothing presses on the molars.
+    return _numbers(layout.span["teeth"])[row & (depth < np.quantile(depth[row], 0.4))]
 
 
 def _shares(layout: Layout, measured: Points) -> Floats:
