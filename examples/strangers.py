@@ -1,4 +1,4 @@
-"""People whom nobody has met: shape and colours drawn by chance, as people differ; `--random SEED` on the command line."""
+"""Strangers: shape and colours drawn by chance, as people differ; `--random SEED` on the command line."""
 
 # mien: docs = picture, test = compare
 import sys
