@@ -5,8 +5,10 @@ Hair, collar, teeth, gums and tongue are carried by the skin near them; the eyes
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass, replace
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -42,10 +44,12 @@ def read_residual(path: Path, vertex_count: int) -> Residual:
         LoadError: an array is missing, has another shape or is not finite.
     """
     try:
-        with np.load(path) as loaded:
+        with path.open("rb") as file, np.load(file) as loaded:
             arrays = {name: loaded[name].astype(np.float64) for name in loaded.files}
-    except (OSError, ValueError) as error:
-        raise LoadError(path, f"cannot be read as a residual: {error}") from None
+    except OSError as error:
+        raise LoadError(path, f"cannot be read: {error.strerror or error}") from None
+    except (ValueError, TypeError, AttributeError, EOFError, BadZipFile, zlib.error) as error:
+        raise LoadError(path, f"not a file of arrays (.npz): {error}", hint="write it with numpy.savez") from None
     wanted = {"cage": (vertex_count, 3), "surface": (vertex_count, 3), "eye_shift": (3,), "eye_scale": ()}
     for name, shape in wanted.items():
         if name not in arrays:
