@@ -32,6 +32,9 @@ LASH = Material(two_sided=True)
 CLOTH = Material(gloss=0.012, gloss_power=8, subdivide=True)
 INSIDE = {"teeth": TOOTH, "gums": WET, "tongue": WET}
 
+STUBBLE_SHADE = np.array([0.42, 0.45, 0.62])
+"""Colour of hair just cut, over that of hair: seen end on it is darker and cooler."""
+
 DEEP_TOOTH = (0.34, 0.19, 0.15)
 DEEP_FLESH = (0.10, 0.05, 0.05)
 """What light is left deep in the mouth: it is lit as if it lay in the open, so it must be painted dark."""
@@ -86,7 +89,7 @@ class Layout:
         archive, rest = self.archive, self.rest
         of = partial(shades.color_of, pose)
         band = archive.ints("collar_quads")[archive.ints("collar_band").astype(bool)]
-        skin = shades.tinted(self._bare_skin(pose), of("hair"), self.beard.tint[self.skin])
+        skin = shades.tinted(self._bare_skin(pose), STUBBLE_SHADE * of("hair"), self.beard.tint[self.skin])
         out = {
             "skin": skin,
             "beard": shades.hair_color(of("hair"), skin[self.beard.index[:, 0]], self.beard.shade),
