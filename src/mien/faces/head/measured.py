@@ -74,6 +74,11 @@ class Measured:
     lids: Lids
 
 
+LIP_END, BEFORE_LIP_END = ("mi_4", "m0_4"), "mh_4"
+"""The end of the upper lip's inner edge, and the red before it: in the corner the reference's nearest skin is the lower
+lip, which goes elsewhere."""
+
+
 @dataclass(frozen=True, eq=False)
 class Archive:
     """A data file, its arrays converted when first asked for."""
@@ -125,7 +130,7 @@ class Archive:
     def measured(self, kind: Kind) -> Measured:
         """One of the two position sets."""
         points = self.floats(kind)
-        measured = self._morphs(kind) | conformation()._morphs(kind)
+        measured = {n: self._mended(delta) for n, delta in (self._morphs(kind) | conformation()._morphs(kind)).items()}
         lids = Lids(
             self.ints("lid_index"),
             self.floats("lid_side"),
@@ -136,11 +141,19 @@ class Archive:
         return Measured(
             kind,
             points,
-            self.floats(f"jaw_share_{kind}"),
-            self.floats(f"jaw_residual_{kind}"),
+            self._mended(self.floats(f"jaw_share_{kind}")),
+            self._mended(self.floats(f"jaw_residual_{kind}")),
             measured | derived_morphs(measured, points, self.vertex),
             lids,
         )
+
+    def _mended(self, measured: Floats) -> Floats:
+        """What was measured at each vertex (V, ...), at the inner edge of the upper lip's end as before it."""
+        edge = [self.vertex[name] for name in LIP_END]
+        before = self.vertex[BEFORE_LIP_END]
+        mended = measured.copy()
+        mended[edge], mended[self.mirror[edge]] = measured[before], measured[self.mirror[before]]
+        return _locked(mended)
 
     def _morphs(self, kind: Kind) -> dict[str, Points]:
         """Expression -> (V, 3) m, as measured."""
