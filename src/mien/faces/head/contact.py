@@ -71,19 +71,22 @@ class Before:
     Attributes:
         rows: (B,) vertices.
         clearance: (B, 2) m that each keeps of the upper and of the lower row; 0 where it never meets that.
+        edge: (B,) whether it is where the lips meet: a lip that rolls in takes that between the rows.
     """
 
     rows: Ints
     clearance: Floats
+    edge: Bools
 
 
-def before_teeth(skin: Points, jaw_share: Floats, seen: Bools, inside: Points, lower: Bools) -> Before:
+def before_teeth(skin: Points, jaw_share: Floats, seen: Bools, edge: Ints, inside: Points, lower: Bools) -> Before:
     """The skin that stands before the teeth.
 
     Args:
         skin: (S, 3) m, at rest.
         jaw_share: (S,) of the jaw's angle: upper lip and lower lip meet their own teeth only.
         seen: (S,) whether it is outside the mouth.
+        edge: vertices where the lips meet.
         inside: (K, 3) m, teeth and gums.
         lower: (K,) which of them the jaw carries.
     """
@@ -92,7 +95,7 @@ def before_teeth(skin: Points, jaw_share: Floats, seen: Bools, inside: Points, l
     near = seen & (skin[:, 1] > LOWEST_M) & (skin[:, 1] < HIGHEST_M) & (skin[:, 2] > BEHIND_M)
     meets = np.stack([jaw_share < UPPER_BELOW, jaw_share > LOWER_ABOVE], axis=1) & near[:, None] & (gaps > NEAREST_M)
     rows = np.flatnonzero(meets.any(axis=1))
-    return Before(rows, np.where(meets, np.minimum(AT_LEAST * gaps, AT_MOST_M), 0.0)[rows])
+    return Before(rows, np.where(meets, np.minimum(AT_LEAST * gaps, AT_MOST_M), 0.0)[rows], np.isin(rows, edge))
 
 
 @kernel("f8[:,:], f8[:,:], b1[:], f8[:,:,:], f8[:,:]")
@@ -171,11 +174,17 @@ def lift_row(points, lower, chin_y):
 
 
 @kernel()
-def push_before(skin, rows, clearance, axes, outlines, pressed):
-    """Push skin (S, 3) m out, level, to where it clears both rows of teeth: of ``Before`` and ``trace_rows``.
+def push_before(skin, before, rolled, axes, outlines, pressed):
+    """Push skin (S, 3) m out, level, to where it clears both rows of teeth.
 
-    ``pressed`` (2, WAYS.., 3) is filled in its first column with how much was missing in each direction, m.
+    Args:
+        skin: changed.
+        before: rows, clearance and edge of ``Before``.
+        rolled: how far the upper and the lower lip are rolled in, 0..1.
+        axes: and outlines: of ``trace_rows``.
+        pressed: (2, WAYS.., 3), filled in its first column with how much was missing in each direction, m.
     """
+    rows, clearance, edge = before
     for jaw in range(2):
         for way in range(WAYS):
             pressed[jaw, way, 0] = 0.0
@@ -187,6 +196,8 @@ def push_before(skin, rows, clearance, axes, outlines, pressed):
             away = np.sqrt(x * x + z * z)
             missing = reach + clearance[n, jaw] - away
             if clearance[n, jaw] > 0.0 and z > 0.0 and missing > 0.0:
+                if edge[n]:
+                    missing *= 1.0 - rolled[jaw]
                 missing *= soft_step((y - low + FADE_M) / FADE_M) * soft_step((high + FADE_M - y) / FADE_M)
                 size = 1.0 + missing / max(away, 1e-6)
                 skin[v, 0], skin[v, 2] = x * size, axes[jaw] + z * size

@@ -128,7 +128,9 @@ class Poser:
         wide = measured.points + measured.morphs["eyeWide_L"] + measured.morphs["eyeWide_R"]
         inner = archive.quads[archive.groups == archive.group_names.index("mouth")]
         seen = ~np.isin(np.arange(len(measured.points)), inner)
-        before = before_teeth(measured.points, measured.jaw_share, seen, self._inside[: len(lower)], lower)
+        before = before_teeth(
+            measured.points, measured.jaw_share, seen, contacts.numbers[:, :, 0], self._inside[: len(lower)], lower
+        )
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
         grown = layout.beard
@@ -154,7 +156,7 @@ class Poser:
                 np.concatenate([lower, np.ones(len(rest["tongue"]), dtype=bool)]),
                 *(tongue.profile, tongue.edges, jaw.chin),
             ),
-            *(before.rows, before.clearance, archive.vertex[CHIN_END]),
+            *(before.rows, before.clearance, before.edge, archive.vertex[CHIN_END]),
             *(archive.vertex["m0_0"], share),
         )
 

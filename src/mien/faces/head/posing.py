@@ -38,6 +38,7 @@ SINGLE = (
     *("head.turn", "head.nod", "head.tilt", "head.forward"),
     *("head.scale.width", "head.scale.height", "head.scale.depth"),
     *(f"{group}.{axis}" for group in ("target", "light", "viewer") for axis in "xyz"),
+    *("mouth.roll_upper", "mouth.roll_lower"),
 )
 PAIRED = (
     *("mouth.corner.side", "mouth.corner.up", "mouth.corner.forward", "mouth.corner.width"),
@@ -48,8 +49,8 @@ CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".ri
 """Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
 
 JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP = range(9)
-TURN, NOD, TILT, FORWARD, SCALE, TARGET, LIGHT, VIEWER, CORNERS = *range(12, 17), *range(19, 31, 3)
-OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(36, 54, 2)
+TURN, NOD, TILT, FORWARD, SCALE, TARGET, LIGHT, VIEWER, ROLLED, CORNERS = *range(12, 17), *range(19, 31, 3), 30
+OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(38, 56, 2)
 """Columns of ``CONTROLS``; of a pair, of a place, or of the tongue's tip the first."""
 
 EYE, SPOTS, CARUNCLE, LASH, BROW, BEARD, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13, 14
@@ -289,7 +290,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:,:], f8[:,:], f8[:], "  # beard
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
-    "i8[:], f8[:,:], i8, "  # skin before the teeth
+    "i8[:], f8[:,:], b1[:], i8, "  # skin before the teeth
     "i8, f8[:], "  # lip's edge, neck
     "f8[:], "  # what no expression moves
     "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
@@ -312,7 +313,7 @@ def pose_heads(
     beard_index, beard_weight, beard_offset,
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tongue_profile, tooth_edges, chin,
-    before, clearance, chin_end,
+    before, clearance, edge, chin_end,
     lip_edge, neck_share,
     rest,
     amounts, kinds, axes, origins,
@@ -334,7 +335,7 @@ def pose_heads(
         lash_index: and what follows: of ``place_hairs``.
         carried: and what follows: of ``place_inside``.
         clear_of_balls: of ``keep_off_balls``.
-        before: clearance: of ``push_before``; chin_end: of ``lift_row``.
+        before: clearance, edge: of ``push_before``; chin_end: of ``lift_row``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
         rest: (3 R,) m, of the vertices from the first of the teeth on: at rest inside the mouth, shaped beyond it.
@@ -371,7 +372,7 @@ def pose_heads(
         shape_points(inside, shape, inside_starts, inside_rows, inside_weights)
         lift_row(inside, carried, skin[chin_end, 1])
         upright = trace_rows(inside, carried[: parts[TONGUE] - parts[TEETH]], outlines)
-        push_before(skin, before, clearance, upright, outlines, pressed)
+        push_before(skin, (before, clearance, edge), c[ROLLED : ROLLED + 2], upright, outlines, pressed)
         give_way(inside, carried, upright, pressed)
         for v in range(len(source)):
             for axis in range(3):
