@@ -104,6 +104,12 @@ def hidden_quads() -> np.ndarray:
 
 
 @cache
+def inner_quads() -> np.ndarray:
+    """(F,) whether a polygon of the skin is hidden, or lies behind the line where lips or lids meet."""
+    return hidden_quads() | quads_within(INWARDS[0]) | quads_within(INWARDS[1])
+
+
+@cache
 def skin_rows(head: Head) -> Ints:
     """Refined vertices of the skin."""
     return np.unique(skin_quads(head))
@@ -112,8 +118,7 @@ def skin_rows(head: Head) -> Ints:
 @cache
 def is_outside(head: Head) -> np.ndarray:
     """(V',) whether a refined vertex has nothing but outer skin around it."""
-    inner = hidden_quads() | quads_within(INWARDS[0]) | quads_within(INWARDS[1])
-    quads, rows = skin_quads(head), np.repeat(inner, 4)
+    quads, rows = skin_quads(head), np.repeat(inner_quads(), 4)
     out = np.zeros(refine(head.topology).topology.vertex_count, dtype=bool)
     out[quads[~rows]] = True
     out[quads[rows]] = False
@@ -183,14 +188,17 @@ def lid_rows(head: Head, side: str) -> Ints:
 
 
 def flipped_polygons(posed: Posed) -> Ints:
-    """Polygons of the refined visible skin that face against all their neighbours."""
+    """Polygons of the refined visible skin that face against all their neighbours.
+
+    What lies behind the line where lips or lids meet folds by itself when they shut, where nobody sees it.
+    """
     quads = skin_quads(posed.head)
     normals = quad_normals(posed.fine, quads)
     size = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(size, 1e-15)[:, None]
     around = spread(normals, quads, len(posed.fine))[quads].sum(axis=1) - 4.0 * normals
     agree = (around * normals).sum(axis=1) / np.maximum(np.linalg.norm(around, axis=1), 1e-15)
-    return np.flatnonzero(~np.repeat(hidden_quads(), 4) & (agree < -0.35) & (size > 2e-8))
+    return np.flatnonzero(~np.repeat(inner_quads(), 4) & (agree < -0.35) & (size > 2e-8))
 
 
 def bends_deg(points: Points, quads: Ints) -> np.ndarray:

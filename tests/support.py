@@ -57,7 +57,7 @@ def poses(table: ParameterTable) -> st.SearchStrategy[Pose]:
 def lip_gap_mm(skin: Points) -> float:
     """Greatest height between the edges of contact of lips drawn with a head's skin, middle to next but the corner."""
     height = {name: skin[number, 1] for name, number in archive().vertex.items()}
-    return 1000.0 * max(height[f"m0_{up}"] - height[f"m0_{low}"] for up, low, _ in CONTACT_STATIONS[:4])
+    return 1000.0 * max(height[f"m0_{up}"] - height[f"m0_{low}"] for up, low, *_ in CONTACT_STATIONS[:4])
 
 
 def _some_rows(table: ParameterTable) -> st.SearchStrategy[Pose]:

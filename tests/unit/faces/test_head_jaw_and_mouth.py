@@ -130,8 +130,8 @@ def test_the_upper_lip_rises_most_in_the_middle_and_not_at_the_corner():
     rise = (points({"mouth.upper_lip": 20}) - points({}))[:, 1]
     stations = [rise[vertex(f"m0_{station}")] for station in range(6)]
     assert stations[0] == pytest.approx(20 * 0.00016)
-    assert (np.diff(stations) < 0).all()
-    assert stations[5] == 0.0
+    assert (np.diff(stations[:5]) < 0).all()
+    assert np.abs(stations[4:]).max() < 1e-9, "beside the corner the lips stick together"
 
 
 def test_mouth_width_scales_the_lips_and_leaves_nose_and_ears():

@@ -49,17 +49,21 @@ TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
 CONTACT_RINGS = {"m0": 1.0, "mj": 0.3, "mi": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
 """Shares of closing; the first ring is where the lips meet, whose gap is closed."""
 
-CONTACT_STATIONS = ((0, 9, 0.0001), (1, 8, 0.0001), (2, 7, 0.0002), (3, 6, 0.0011), (4, 6, 0.0020))
-"""Stations that meet, above and below, and how far (m) they pass one another when shut: near the corner the measured
-bridge alone, or a corner drawn aside, leaves a slit."""
+CONTACT_STATIONS = (
+    (0, 9, 0.0001, 0.0005),
+    (1, 8, 0.0001, 0.0005),
+    (2, 7, 0.0002, 0.0005),
+    (3, 6, 0.0011, 0.0010),
+    (4, 6, 0.0020, 0.0020),
+)
+"""Stations that meet, above and below; how far (m) they pass one another when shut: near the corner the measured
+bridge alone, or a corner drawn aside, leaves a slit; and from how near (m) they stick together, as lips do that part
+from the middle on: from twice as far on they do not."""
 
 OVERLAP_FROM = 0.25
 PRESSED = 0.5
 """Share of the measured open mouth from which on they pass one another fully, and how much of it they do over a shut
 jaw."""
-
-STICKING_M = 0.0005
-"""Lips no farther apart than this stick together, from twice as far on they do not: a hairline is no open mouth."""
 
 TEETH_RINGS = ("mh", "m1", "mb")
 TEETH_ARCH, TEETH_CLEAR_M, TEETH_EDGE_M = 24.0, 0.0012, 0.002
@@ -77,8 +81,8 @@ class Contacts:
     Attributes:
         numbers: (C, 2, R) vertices above and below, the ring where the lips meet first.
         shares: (R,) share of the gap's closing.
-        gaps: (C, 5) m from the upper to the lower lip at rest; how far (m) they pass one another when shut; and
-            the share of the gap that the upper lip closes: the lower one does the rest.
+        gaps: (C, 6) m from the upper to the lower lip at rest; how far (m) they pass one another when shut; the
+            share of the gap that the upper lip closes: the lower one does the rest; and from how near (m) they stick.
     """
 
     numbers: Ints
@@ -166,14 +170,14 @@ def _by_ring(
 def _contacts(archive: Archive, points: Points) -> Contacts:
     numbers, gaps = [], []
     for side in (0, 1):
-        for up, low, overlap_m in CONTACT_STATIONS:
+        for up, low, overlap_m, sticking_m in CONTACT_STATIONS:
             if up == 0 and side == 1:
                 continue  # the midline, which belongs to both sides
             upper, lower = ([_vertex(archive, ring, s, side) for ring in CONTACT_RINGS] for s in (up, low))
             # The lower corner station serves two stations above; the second meets it where it lies.
             upper_part = UPPER_PART if up != 4 else 1.0
             numbers.append((upper, lower))
-            gaps.append((*(points[lower[0]] - points[upper[0]]), overlap_m, upper_part))
+            gaps.append((*(points[lower[0]] - points[upper[0]]), overlap_m, upper_part, sticking_m))
     return Contacts(np.array(numbers), np.array(list(CONTACT_RINGS.values())), np.array(gaps))
 
 
@@ -271,7 +275,8 @@ def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, move
     for c in range(len(gaps)):
         upper, lower = numbers[c, 0, 0], numbers[c, 1, 0]
         slit = points[upper, 1] - points[lower, 1] + gaps[c, 1]
-        closed = max(closure, 1.0 - soft_step((slit - STICKING_M) / STICKING_M)) if slit > 0.0 else closure
+        sticking = gaps[c, 5]
+        closed = max(closure, 1.0 - soft_step((slit - sticking) / sticking)) if slit > 0.0 else closure
         upwards, downwards = closed * (1.0 - gaps[c, 4]), closed * gaps[c, 4]
         for axis in range(3):
             gap = points[lower, axis] - points[upper, axis] - gaps[c, axis]
