@@ -16,6 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 import mend_head
 import mend_lids
+import mend_planes
 import model_mouth
 
 from mien.faces.head.arrays import format_arrays
@@ -117,6 +118,7 @@ def main(folder: Path) -> None:
             done[number] = symmetric_pair(deltas, kept, own, mirror)
         done[np.abs(done) < 2e-6] = 0.0
         out[f"morph_{name}"] = done.astype(np.float16)
+    out["surface_flatter"] = mend_planes.flatten(out).astype(np.float16)
     mend_lids.shut(out)
     for kind, name in (("control", "cage"), ("onsurface", "surface")):
         blinks = [symmetric_pair(morphs[kind], names, f"eyeBlink_{side}", mirror) * CM for side in "LR"]

@@ -1,7 +1,8 @@
 """The measured head: cage and surface points, shares, lids, parts; loaded once, read-only.
 
 Two position sets belong to one topology: ``cage`` is fitted so that its subdivision meets the reference (0.24 mm
-RMS after one step), ``surface`` lies on the reference itself and is for pictures without subdivision.
+RMS after one step), ``surface`` lies on the reference itself and is for pictures without subdivision, once
+its points have moved by ``surface_flatter``, which makes the polygons of smooth skin nearly plane.
 """
 
 from __future__ import annotations
@@ -130,6 +131,8 @@ class Archive:
     def measured(self, kind: Kind) -> Measured:
         """One of the two position sets."""
         points = self.floats(kind)
+        if kind == "surface":
+            points = _locked(points + self.floats("surface_flatter"))
         measured = {n: self._mended(delta) for n, delta in (self._morphs(kind) | conformation()._morphs(kind)).items()}
         lids = Lids(
             self.ints("lid_index"),
