@@ -23,6 +23,7 @@ SHARES = {
     "eyeballs through the skin, mm": 0.001,
     "lids into the eyeballs, mm": 0.005,
     "lids wide open into the eyeballs, mm": 0.015,
+    "flipped polygons": 0.3,
 }
 """Share of random poses, half of them with many values at the ends of ranges, that may fail: what is not mended yet.
 Teeth come through where a shape that narrows the jaw meets an open, widened mouth."""
@@ -121,7 +122,8 @@ def test_eyes_shut_in_random_poses_show_nothing_but_in_a_few():
 
 def test_closed_lips_in_random_poses_show_no_more_than_a_slit_at_the_corners():
     shown = [sum(mouth_pixels(changed(parke_pose(HEAD, seed), mouth__closure=1.0))) for seed in range(30)]
-    assert sum(count > A_SLIT_PIXELS for count in shown) <= 1
+    assert max(shown) <= A_SLIT_PIXELS
+    assert sum(count > A_HAIRLINE_PIXELS for count in shown) <= 3
 
 
 @pytest.mark.parametrize("name", ["mouth.width", "mouth.offset", "mouth.expression", "mouth.corner.side"])

@@ -253,23 +253,32 @@ def tuck_lip(points, before_jaw, rows, share, tuck):
 
 
 @kernel()
-def close_lips(points, closure, jaw_opening, bridge, numbers, shares, gaps, moves):
-    """Bring the lips of the skin together: the measured bridge over an open jaw, then contact of what is left.
+def bridge_lips(points, share, bridge):
+    """Bring the lips of the skin (V, 3) m together over an open jaw by a share of the measured ``mouthClose`` (V, 3) m.
+
+    That makes sense together with the jaw only.
+    """
+    if share != 0.0:
+        for v in range(len(points)):
+            for axis in range(3):
+                points[v, axis] += share * bridge[v, axis]
+
+
+@kernel()
+def close_lips(points, closure, jaw_opening, numbers, shares, gaps, moves):
+    """Bring the lips of the skin into contact, whatever is left between them.
 
     Args:
         points: (V, 3) m, after the jaw; changed.
         closure: 1 is shut.
         jaw_opening: the jaw's angle as a share of the measured open mouth.
-        bridge: (V, 3) m, the measured expression ``mouthClose``, which only makes sense together with the jaw.
         numbers: of ``Contacts``.
         shares: of ``Contacts``.
         gaps: of ``Contacts``.
         moves: (V, 3) filled with what contact adds.
     """
-    bridged = closure * jaw_opening
     for v in range(len(points)):
         for axis in range(3):
-            points[v, axis] += bridged * bridge[v, axis]
             moves[v, axis] = 0.0
     pressed = max(PRESSED * closure, min(jaw_opening / OVERLAP_FROM, 1.0))
     for c in range(len(gaps)):

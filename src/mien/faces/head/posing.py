@@ -25,7 +25,7 @@ from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, meet_lids, move_lids
-from .mouth import close_lips, copy_rows, move_lips, stay_off_teeth, tuck_lip
+from .mouth import bridge_lips, close_lips, copy_rows, move_lips, stay_off_teeth, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
@@ -100,7 +100,8 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
         gaze: (2, 3) directions of the eyes.
         lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), and their shares in ``tuck_lip`` (R,).
         jaw: axis, share, angle of the measured open mouth, residual: of ``open_jaw``.
-        contacts: bridge, numbers, shares, gaps: of ``close_lips``; over_teeth and edge of ``stay_off_teeth``.
+        contacts: bridge of ``bridge_lips``; numbers, shares, gaps of ``close_lips``; over_teeth and edge of
+            ``stay_off_teeth``.
         lids: numbers, polar and rest of ``move_lids``; pairs and gaps of ``meet_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
         waves: (2, S), overwritten.
@@ -114,9 +115,11 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
     if c[TUCK] != 0.0:
         copy_rows(skin, rows, before_jaw)
     open_jaw(skin, c[JAW], axis, share, open_angle_deg, residual, waves)
+    opened = c[JAW] / open_angle_deg
+    bridge_lips(skin, c[CLOSURE] * opened, bridge)
     if c[TUCK] != 0.0:
         tuck_lip(skin, before_jaw, rows, tuck_share, c[TUCK])
-    close_lips(skin, c[CLOSURE], c[JAW] / open_angle_deg, bridge, numbers, shares, gaps, moves)
+    close_lips(skin, c[CLOSURE], opened, numbers, shares, gaps, moves)
     stay_off_teeth(skin, over_teeth, front)
     closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
     move_lids(skin, lid_numbers, lid_polar, lid_rest, closed, (elevation_deg(gaze[0, 1]), elevation_deg(gaze[1, 1])))
