@@ -54,7 +54,7 @@ UPPER_BELOW, LOWER_ABOVE = 0.6, 0.3
 NEAREST_M = 0.0025
 """What stands nearer to the teeth at rest, such as the inner corner of the mouth, is left where it is."""
 
-UNFELT_M = 0.001
+UNFELT_M = 0.003
 """Teeth do not give way for less: in ordinary poses jaw and skull stay rigid."""
 
 LOWEST_M, HIGHEST_M, BEHIND_M = -0.118, -0.044, 0.052
