@@ -18,7 +18,7 @@ HEAD = Head(hair="bald")
 MEASURE = {measure.name: measure for measure in MEASURES}
 SHARES = {
     "numbers that are not finite": 0.0,
-    "teeth through the skin, mm": 0.05,
+    "teeth through the skin, mm": 0.06,
     "tongue through the skin, mm": 0.01,
     "eyeballs through the skin, mm": 0.001,
     "lids into the eyeballs, mm": 0.005,
