@@ -19,11 +19,15 @@ REACH = 3.0
 def random_person(face: Face, seed: int) -> Pose:
     """The rest of a person drawn by chance: a palette, and every value that differs among people; never moved.
 
+    Nothing is left of who the face is but what no parameter says, such as hair.
+
     The same seed gives the same person on every machine, and each parameter has its own stream: a parameter that is
     added later changes nobody's other values.
     """
     palettes = [preset for preset in face.presets.values() if preset.kind == "palette"]
-    values = dict(palettes[int(stream(seed, "palette").random() * len(palettes))].values) if palettes else {}
+    values = {row.name: row.usual for row in face.parameters if row.usual is not None}
+    if palettes:
+        values.update(palettes[int(stream(seed, "palette").random() * len(palettes))].values)
     for row in face.parameters:
         if row.spread:
             common = around(stream(seed, row.name.removesuffix(SIDES[0]).removesuffix(SIDES[1])), 0.0, REACH)
