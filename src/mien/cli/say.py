@@ -22,8 +22,10 @@ def say(
         str,
         typer.Option(
             "--style",
-            metavar="NAME=AMOUNT,…",
-            help="How lively, 0 (off) to 2: blinks, head, brows, gaze, strength.",
+            metavar="NAME=AMOUNT,…|@FILE",
+            help="How lively, 0 (off) over 1 to 2: blinks, head, brows, gaze, strength, jaw, lips, tongue; passes of "
+            "the mouth: targets, stress, diphthongs, brief, pauses, anticipation, lag, dominance, rounding, closures; "
+            "or a name: mumbling, enunciating, ventriloquist, drawling, pursed, still; or a style file.",
         ),
     ] = "",
     emotion: Annotated[
@@ -61,6 +63,7 @@ def say(
     mien say "How happy is the little stone" -o stone.mp4
     mien say @poem.txt --face head:ada --view front --fps 30 -o poem.mp4
     mien say "Good night." --preset sleepy --style blinks=2,head=0.5 -o night.mp4
+    mien say "Good morning." --style mumbling -o morning.mp4
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     mien say "Hello there." -o hello.glb
@@ -69,7 +72,7 @@ def say(
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
     from mien.formats.performances import HEARD, usual_scene
-    from mien.perform import check_emotion, listen, parse_style
+    from mien.perform import check_emotion, listen, load_style
 
     from . import settings
     from .stages import Stages
@@ -103,7 +106,7 @@ def say(
     mood, amount = settings.parse_emotion(emotion)
     if mood is not None:
         check_emotion(subject, mood, amount)
-    manner = parse_style(style)
+    manner = load_style(style)
     words = settings.read_text(text)
 
     stages = Stages(quiet)

@@ -1,6 +1,19 @@
 """Speech and the life around it as one timeline: what a face does while it says something."""
 
 from .performance import Performance, check_emotion, listen, perform
-from .style import Style, parse_style
+from .style import NamedStyle, Style, named_styles, parse_style, style_table
+from .style_files import load_style, read_style
 
-__all__ = ["Performance", "Style", "check_emotion", "listen", "parse_style", "perform"]
+__all__ = [
+    "NamedStyle",
+    "Performance",
+    "Style",
+    "check_emotion",
+    "listen",
+    "load_style",
+    "named_styles",
+    "parse_style",
+    "perform",
+    "read_style",
+    "style_table",
+]

@@ -97,7 +97,7 @@ def perform(
     voiced = listen(speech, face)
     length_s = voiced.timeline.length_s
     lids = _lids(speech, length_s, seed, style)
-    mouth = articulate(speech.phones, strength=style.strength)
+    mouth = articulate(speech.phones, style)
     moved = {**mouth, **_accents(speech, length_s, seed, style)}
     layers = (
         Layer("idle", "add", _play(remap, {**_sway(length_s, seed, style), **lids})),

@@ -7,22 +7,22 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from mien.core import Cue, RangeError
+from mien.core import Cue
 from mien.timeline import Track
 
-from .mouth_blend import Gestures, blend, gestures
+from .articulation import USUAL, Articulation
+from .mouth_blend import blend
+from .mouth_gestures import Gestures, gestures
 from .mouth_holds import Hold, evaluate, find_holds
 from .mouth_keys import reduce_keys
 from .mouth_passes import soften_pauses, split_diphthongs, tidy
-from .mouth_table import BLENDED, HELD, Floats
+from .mouth_table import BLENDED, GROUPS, HELD, Floats
 
 MOUTH_CHANNELS: tuple[str, ...] = (*HELD, *BLENDED)
 """Channels that speech plays, each 0..1."""
 
 STEP_S = 0.01
 CHUNK_S = 30.0
-
-STRENGTH_RANGE = (0.0, 2.0)
 
 SEALED = {"upper_lip": 1.0, "lower_lip": 1.0, "spread": 0.5, "tongue_out": 1.0, "tuck": 1.0, "jaw": 0.35}
 """Part of a channel that is taken away while the lips are pressed together."""
@@ -31,29 +31,26 @@ TUCKED = {"lower_lip": 1.0, "jaw": 0.3, "tongue_out": 1.0}
 """Part of a channel that is taken away while the lower lip is under the teeth."""
 
 
-def articulate(phones: Iterable[Cue], *, strength: float = 1.0) -> dict[str, Track]:
+def articulate(phones: Iterable[Cue], style: Articulation = USUAL) -> dict[str, Track]:
     """Tracks of the mouth's channels by name, from 0 s to a moment of rest after the last phone.
 
     Work grows linearly with the phones; besides the keys, memory does not.
 
     Args:
         phones: ARPABET cues; vowels may carry a stress digit, ``SIL`` is silence and fills gaps.
-        strength: how far the mouth moves, 1 as in the table; lips close and tuck fully at any strength.
+        style: how much each pass does; lips close and tuck fully whatever the others do.
 
     Raises:
-        RangeError: a time is not finite, a phone ends before it starts, or the strength is out of range.
+        RangeError: a time is not finite, or a phone ends before it starts.
         UnknownNameError: a symbol is no phone.
     """
-    low, high = STRENGTH_RANGE
-    if not (math.isfinite(strength) and low <= strength <= high):
-        raise RangeError(f"strength {strength} of the mouth is out of range — it goes from {low:g} to {high:g}")
     cues = tidy(phones)
-    holds = find_holds(cues)
-    sounds = gestures(split_diphthongs(soften_pauses(cues)))
+    holds = find_holds(cues, style.closures)
+    sounds = gestures(split_diphthongs(soften_pauses(cues, style.pauses)), style)
     times: dict[str, list[Floats]] = {channel: [] for channel in MOUTH_CHANNELS}
     values: dict[str, list[Floats]] = {channel: [] for channel in MOUTH_CHANNELS}
     for grid, part in _chunks(holds, cues[-1].end_s):
-        curves = sample(sounds, part, grid, strength=strength)
+        curves = sample(sounds, part, grid, style)
         for channel, curve in curves.items():
             keep = np.isin(grid, _corners(part)) if channel in HELD else None
             kept = reduce_keys(grid, curve, keep=keep)
@@ -66,12 +63,19 @@ def articulate(phones: Iterable[Cue], *, strength: float = 1.0) -> dict[str, Tra
     }
 
 
-def sample(sounds: Gestures, holds: Sequence[Hold], times_s: Floats, *, strength: float = 1.0) -> dict[str, Floats]:
+def sample(sounds: Gestures, holds: Sequence[Hold], times_s: Floats, style: Articulation = USUAL) -> dict[str, Floats]:
     """(N,) values of every channel at sorted times, 0..1; a pure function of each moment's neighbourhood."""
-    blended = np.clip(strength * blend(sounds, times_s), 0.0, 1.0)
+    blended = blend(sounds, times_s)
     curves = {channel: evaluate(holds, channel, times_s) for channel in HELD}
-    curves |= {channel: blended[:, column] for column, channel in enumerate(BLENDED)}
+    for group, channels in GROUPS.items():
+        amount = style.strength * getattr(style, group)
+        curves |= {channel: reach(blended[:, BLENDED.index(channel)], amount) for channel in channels}
     return give_way(give_way(curves, "closure", SEALED), "tuck", TUCKED)
+
+
+def reach(share: Floats, amount: float) -> Floats:
+    """(N,) shares 0..1 made larger or smaller; those made larger come nearer to 1 without being cut off there."""
+    return amount * share / (1.0 + max(0.0, amount - 1.0) * share)
 
 
 def give_way(curves: Mapping[str, Floats], ruler: str, taken: Mapping[str, float]) -> dict[str, Floats]:

@@ -14,13 +14,10 @@ import numpy as np
 
 from mien.core import Cue
 
-from .mouth_table import Floats, phone_table
+from .mouth_table import Floats, PhoneTarget, phone_table
 
-LEAST_S = {"closure": 0.086, "tuck": 0.081}
-"""Length of the shortest hold: one frame at 12 fps is 83.3 ms. A tuck counts while it is 0.9, on its slopes too."""
-
-BEFORE_SHARE = 0.65
-"""Part of a lengthening that goes before the phone: lips are shut before a plosive is heard."""
+LEAST_S = 0.086
+"""Length of the shortest hold: one frame at 12 fps is 83.3 ms."""
 
 SAME_GAP_S = 0.045
 OTHER_GAP_S = 0.05
@@ -28,7 +25,8 @@ MERGE_S = 0.03
 
 CLOSE_S = 0.06
 OPEN_S = 0.04
-"""Lips pop open and close slowly.
+FASTER = 0.7
+"""Lips pop open and close slowly: opening takes at most this share of the time of closing.
 
 They meet at speed, so that they are not nearly shut for longer than they are shut.
 Source: Löfqvist and Gracco 1997, Lip and jaw kinematics in bilabial stop consonant production, Journal of Speech,
@@ -42,13 +40,16 @@ LEAST_CLOSE_S = 0.036
 NOISY = ("sibilant", "labial")
 """Kinds of phones whose noise needs open lips: holds beside them grow to the other side."""
 
+SHORT_VOWEL_S = 0.1
+"""A vowel between two holds that is shorter is left to itself: the holds grow away from it."""
+
 
 @dataclass(frozen=True)
 class Hold:
     """A channel is 1 from ``start_s`` to ``end_s``; it rises over ``rise_s`` before and falls over ``fall_s`` after.
 
-    ``spare_s`` is what is left of the phone after the hold, ``before_share`` the part of a lengthening that may go
-    before it.
+    ``spare_s`` is what is left of the phone after the hold, ``leave`` the sides, before and after, to which it is not
+    lengthened.
     """
 
     start_s: float
@@ -57,7 +58,7 @@ class Hold:
     rise_s: float = CLOSE_S
     fall_s: float = OPEN_S
     spare_s: float = 0.0
-    before_share: float = BEFORE_SHARE
+    leave: tuple[bool, bool] = (False, False)
 
     @property
     def length_s(self) -> float:
@@ -65,9 +66,15 @@ class Hold:
         return self.end_s - self.start_s
 
 
-def find_holds(phones: Sequence[Cue]) -> tuple[Hold, ...]:
-    """Holds of all labial phones, in order, none too short to be seen at 12 fps and none overlapping."""
-    return ease(spread_out(lengthen(merge(wish(phones)))))
+def find_holds(phones: Sequence[Cue], amount: float = 1.0) -> tuple[Hold, ...]:
+    """Holds of all labial phones, in order, none overlapping.
+
+    Args:
+        phones: tidy ones.
+        amount: of the guarantee, 0..1: with 1 none is too short to be seen at 12 fps, with 0 each is as long as it is.
+    """
+    least_s = amount * LEAST_S
+    return ease(spread_out(lengthen(merge(wish(phones)), least_s), least_s))
 
 
 def wish(phones: Sequence[Cue]) -> list[Hold]:
@@ -81,15 +88,16 @@ def wish(phones: Sequence[Cue]) -> list[Hold]:
             noise_before = i > 0 and rows[i - 1].kind in NOISY
             noise_after = i + 1 < len(rows) and rows[i + 1].kind in NOISY
             room = CLOSE_SHARE * phones[i - 1].length_s if i and not noise_before else CLOSE_S * (i == 0)
-            rise = min(CLOSE_S, max(LEAST_CLOSE_S, room))
+            vowel_before = i > 1 and _is_short_vowel(phones[i - 1], rows[i - 1]) and bool(rows[i - 2].hold)
+            vowel_after = i + 2 < len(rows) and _is_short_vowel(phones[i + 1], rows[i + 1]) and bool(rows[i + 2].hold)
             out.append(
                 Hold(
                     start_s=cue.start_s + row.hold_from * cue.length_s,
                     end_s=end,
                     channel=row.hold,
-                    rise_s=rise,
+                    rise_s=min(CLOSE_S, max(LEAST_CLOSE_S, room)),
                     spare_s=cue.end_s - end,
-                    before_share=BEFORE_SHARE if noise_before == noise_after else float(noise_after),
+                    leave=(noise_before or vowel_before, noise_after or vowel_after),
                 )
             )
     return out
@@ -100,24 +108,38 @@ def merge(holds: Sequence[Hold]) -> list[Hold]:
     out: list[Hold] = []
     for hold in holds:
         if out and out[-1].channel == hold.channel and hold.start_s - out[-1].end_s < MERGE_S:
-            out[-1] = replace(out[-1], end_s=max(out[-1].end_s, hold.end_s), spare_s=hold.spare_s)
+            out[-1] = replace(
+                out[-1],
+                end_s=max(out[-1].end_s, hold.end_s),
+                spare_s=hold.spare_s,
+                leave=(out[-1].leave[0], hold.leave[1]),
+            )
         else:
             out.append(hold)
     return out
 
 
-def lengthen(holds: Sequence[Hold]) -> list[Hold]:
-    """The holds with short ones made long enough: first into the rest of their own phone, then to both sides."""
+def lengthen(holds: Sequence[Hold], least_s: float = LEAST_S) -> list[Hold]:
+    """The holds made long enough, about the middle of their phones, so that the frame nearest to it has them.
+
+    What must not be shortened beside a hold is left alone, and a short one grows into its own phone, then to the
+    other side.
+    """
     out = []
     for hold in holds:
-        missing = max(0.0, LEAST_S[hold.channel] - hold.length_s)
-        own = min(missing, hold.spare_s)
-        start = max(0.0, hold.start_s - hold.before_share * (missing - own))
-        out.append(replace(hold, start_s=start, end_s=start + LEAST_S[hold.channel]) if missing else hold)
+        before, after = hold.leave
+        if before == after:
+            half, middle = 0.5 * least_s, 0.5 * (hold.start_s + hold.end_s + hold.spare_s)
+            start, end = min(hold.start_s, middle - half), max(hold.end_s, middle + half)
+        else:
+            missing = max(0.0, least_s - hold.length_s)
+            own = min(missing, hold.spare_s)
+            start, end = hold.start_s - (missing - own) * after, hold.end_s + own + (missing - own) * before
+        out.append(replace(hold, start_s=max(0.0, start), end_s=end - min(0.0, start)))
     return out
 
 
-def spread_out(holds: Sequence[Hold]) -> list[Hold]:
+def spread_out(holds: Sequence[Hold], least_s: float = LEAST_S) -> list[Hold]:
     """The holds moved apart where they overlap: long ones give way first, then all move as little as they can.
 
     The moves are the least-squares ones (isotonic regression by pooling neighbours).
@@ -130,8 +152,8 @@ def spread_out(holds: Sequence[Hold]) -> list[Hold]:
         lack = first.end_s + _gap(first, second) - second.start_s
         if lack > 0.0:
             spare = (
-                max(0.0, first.length_s - LEAST_S[first.channel]),
-                max(0.0, second.length_s - LEAST_S[second.channel]),
+                max(0.0, first.length_s - least_s),
+                max(0.0, second.length_s - least_s),
             )
             total = spare[0] + spare[1]
             share = min(1.0, lack / total) if total > 0.0 else 0.0
@@ -149,12 +171,13 @@ def spread_out(holds: Sequence[Hold]) -> list[Hold]:
 
 
 def ease(holds: Sequence[Hold]) -> tuple[Hold, ...]:
-    """The holds with slopes short enough that the lips part between two of them."""
+    """The holds with slopes short enough that the lips part between two of them, and open faster than they close."""
     out = list(holds)
     for i, hold in enumerate(out):
         before = hold.start_s - out[i - 1].end_s if i else np.inf
         after = out[i + 1].start_s - hold.end_s if i + 1 < len(out) else np.inf
-        out[i] = replace(hold, rise_s=min(hold.rise_s, 0.55 * before), fall_s=min(hold.fall_s, 0.4 * after))
+        rise = min(hold.rise_s, 0.55 * before)
+        out[i] = replace(hold, rise_s=rise, fall_s=min(hold.fall_s, FASTER * rise, 0.4 * after))
     return tuple(out)
 
 
@@ -170,6 +193,10 @@ def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
             shape = np.where(t < hold.start_s, rise * rise, np.where(t > hold.end_s, fall * fall, 1.0))
             value[low : high + 1] = np.maximum(value[low : high + 1], shape)
     return value
+
+
+def _is_short_vowel(cue: Cue, row: PhoneTarget) -> bool:
+    return row.is_vowel and cue.length_s < SHORT_VOWEL_S
 
 
 def _gap(first: Hold, second: Hold) -> float:

@@ -1,4 +1,4 @@
-"""Small passes over the list of phones before it is blended; each takes cues and gives cues."""
+"""Passes over the list of phones before it is blended; each takes cues and gives cues."""
 
 from __future__ import annotations
 
@@ -54,25 +54,29 @@ def join_silences(phones: Iterable[Cue]) -> tuple[Cue, ...]:
     return tuple(out)
 
 
-def soften_pauses(phones: Iterable[Cue]) -> tuple[Cue, ...]:
+def soften_pauses(phones: Iterable[Cue], amount: float = 1.0) -> tuple[Cue, ...]:
     """The phones with short pauses marked: under 120 ms the mouth holds, up to 350 ms it relaxes partly.
 
     Before the first phone and after the last the mouth rests, however short that is.
+
+    Args:
+        phones: tidy ones.
+        amount: the two lengths are multiplied by it.
 
     Source: Edwards et al. 2016 (JALI), section 4; the lengths are our choice.
     """
     cues = tuple(phones)
     ends = (0, len(cues) - 1)
     return tuple(
-        Cue(cue.start_s, cue.end_s, _pause(cue.length_s)) if cue.symbol == SILENCE and i not in ends else cue
+        Cue(cue.start_s, cue.end_s, _pause(cue.length_s, amount)) if cue.symbol == SILENCE and i not in ends else cue
         for i, cue in enumerate(cues)
     )
 
 
-def _pause(length_s: float) -> str:
-    if length_s < HOLD_PAUSE_S:
+def _pause(length_s: float, amount: float) -> str:
+    if length_s < amount * HOLD_PAUSE_S:
         return "SIL-hold"
-    return "SIL-relax" if length_s <= RELAX_PAUSE_S else SILENCE
+    return "SIL-relax" if length_s <= amount * RELAX_PAUSE_S else SILENCE
 
 
 def split_diphthongs(phones: Iterable[Cue]) -> tuple[Cue, ...]:

@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from mouth_cases import cues
 
-from mien.speech.mouth_blend import SHORT_SHARE, blend, gestures
+from mien.speech.articulation import USUAL, Articulation
+from mien.speech.mouth_blend import blend
+from mien.speech.mouth_gestures import SHORT_SHARE, gestures
 from mien.speech.mouth_table import BLENDED
 
 JAW, ROUND, SPREAD = (BLENDED.index(channel) for channel in ("jaw", "round", "spread"))
 
 
 def at(text: str, time_s: float) -> np.ndarray:
-    return blend(gestures(cues(text)), np.array([time_s]))[0]
+    return blend(gestures(cues(text), Articulation(rounding=0)), np.array([time_s]))[0]
 
 
 def test_one_phone_alone_has_its_target_everywhere() -> None:
@@ -35,7 +37,7 @@ def test_stress_opens_a_vowel_and_leaves_its_rounding() -> None:
 
 
 def test_short_stops_and_nasals_leave_the_jaw_alone_and_sibilants_do_not() -> None:
-    short = gestures(cues("T:99 N:60 S:60 T:100"))
+    short = gestures(cues("T:99 N:60 S:60 T:100"), USUAL)
     assert short.dominance[0, 0] == pytest.approx(SHORT_SHARE)
     assert short.dominance[1, 0] == pytest.approx(SHORT_SHARE)
     assert short.dominance[2, 0] == 4.0
@@ -49,7 +51,7 @@ def test_rounding_passes_through_tongue_sounds_to_the_vowel() -> None:
 
 
 def test_times_can_be_cut_in_pieces() -> None:
-    sounds = gestures(cues("SIL:200 " + "S:90 T:50 OW1:150 N:80 " * 20))
+    sounds = gestures(cues("SIL:200 " + "S:90 T:50 OW1:150 N:80 " * 20), USUAL)
     times = np.arange(0.0, 7.0, 0.01)
     whole = blend(sounds, times)
     pieces = np.concatenate([blend(sounds, times[:333]), blend(sounds, times[333:])])
