@@ -3,7 +3,21 @@
 Nothing heavy is imported here: the codecs come when the first film or picture is written.
 """
 
-from .performances import DEFAULT_FPS, check_performance, write_performance
+from .cue_files import check_cue_file, read_cue_file, write_cue_file
+from .cue_sheet import CueSheet
+from .performances import check_performance, write_performance
+from .rates import DEFAULT_FPS
 from .table import FORMATS, Format, find_format
 
-__all__ = ["DEFAULT_FPS", "FORMATS", "Format", "check_performance", "find_format", "write_performance"]
+__all__ = [
+    "DEFAULT_FPS",
+    "FORMATS",
+    "CueSheet",
+    "Format",
+    "check_cue_file",
+    "check_performance",
+    "find_format",
+    "read_cue_file",
+    "write_cue_file",
+    "write_performance",
+]

@@ -18,9 +18,11 @@ from mien.timeline import Rate, Timeline, exact_rate
 from mien.timeline.rates import time_of
 
 from .atomic import check_file, writing
+from .cue_files import write_cue_file
+from .cue_sheet import sheet_of
 from .notes import notes
 from .pipeline import at_once, run_ahead
-from .rates import check_film, check_rate
+from .rates import DEFAULT_FPS, check_film, check_rate
 from .subtitle_files import write_subtitles
 from .subtitles import Subtitle, make_subtitles
 from .table import find_format
@@ -28,15 +30,13 @@ from .table import find_format
 if TYPE_CHECKING:
     from .burning import Burner
 
-DEFAULT_FPS = 24.0
-
 BURN = "burn"
 """In the place of a subtitle file's name: subtitles are drawn into the pictures."""
 
 DRAWN = ("film", "folder", "series")
 """Formats that consist of pictures."""
 
-HEARD = ("wav", "subtitles")
+HEARD = ("wav", "subtitles", "textgrid")
 """Formats that need nothing but what is heard."""
 
 PUPPET_SCENE = Scene(subdivide=1)
@@ -143,8 +143,8 @@ def write_performance(
     Args:
         performance: what to write.
         path: where to; the folder of it exists. Films are those of the table ``codecs``; pictures come as a folder or
-            as ``frame_%04d.png``; ``.wav``, ``.srt`` and ``.vtt`` are what is heard, ``.json`` and ``.csv`` data,
-            ``.glb`` a puppet for other programs.
+            as ``frame_%04d.png``; ``.wav``, ``.srt``, ``.vtt`` and ``.TextGrid`` are what is heard, ``.json`` and
+            ``.csv`` data, ``.glb`` a puppet for other programs.
         fps: frames a second, 1..240; 23.976 is 24000/1001. None is the rate the timeline was made for, or 24.
         scene: None is the performance's own; of a ``.glb``, ``PUPPET_SCENE``.
         threads: that draw; None is one a core, four at most. Pictures are equal for any number.
@@ -222,6 +222,8 @@ def _write_data(job: _Job, subtitles: Sequence[Subtitle]) -> None:
     if job.kind == "subtitles":
         with writing(job.path) as temporary:
             write_subtitles(subtitles, temporary, job.notes)
+    elif job.kind == "textgrid":
+        write_cue_file(sheet_of(job.timeline), job.path)
     elif job.kind == "wav":
         from .wav import write_wav
 

@@ -11,6 +11,8 @@ from mien.timeline import Rate, exact_rate
 
 from .codecs import CODECS, Codec, find_codec
 
+DEFAULT_FPS = 24.0
+
 FPS_LOW, FPS_HIGH = 1, 240
 
 

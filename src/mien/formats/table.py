@@ -19,7 +19,8 @@ class Format:
         name: short name.
         suffixes: lower case; an empty one stands for a folder.
         holds: what a user asks for when he names such a file: picture, pixels (a picture made of them), performance,
-            timeline (to play), plot, subtitles (beside a film).
+            timeline (to play), plot, subtitles (beside a film),
+            cues (to write), timing (cues to read).
         doc: what is in the file.
     """
 
@@ -40,9 +41,16 @@ FORMATS: tuple[Format, ...] = (
     Format("series", (".png",), ("performance",), "numbered PNG frames: frame_%04d.png"),
     Format("wav", (".wav",), ("performance",), "the sound alone"),
     Format("subtitles", (".srt", ".vtt"), ("performance", "subtitles"), "what is said, as SubRip or WebVTT subtitles"),
+    Format("textgrid", (".textgrid",), ("performance",), "when each word and phone is said, for Praat"),
     Format("json", (".json",), ("performance", "timeline"), "everything needed to play it again, sound beside it"),
     Format("csv", (".csv",), ("performance", "timeline"), "one row a frame, one column a parameter"),
     Format("specification", (".spec",), ("timeline",), "Parke's specification list"),
+    Format(
+        "cues",
+        (".textgrid", ".json", ".tsv", ".xml", ".srt", ".vtt", ".dat"),
+        ("cues", "timing"),
+        "words, phones and mouth shapes with their times: table ``cue_files``",
+    ),
     Format("plot", (".png", ".svg", ".pdf"), ("plot",), "curves over time"),
 )
 

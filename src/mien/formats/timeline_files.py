@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from mien.core import Face, LoadError, MienError, Scene, Sound
 from mien.timeline import Rate, Timeline
 from mien.timeline.csv_form import format_csv, parse_csv
 from mien.timeline.json_form import from_json, json_text
+from mien.timeline.json_reader import parse_json
 from mien.timeline.specification import FILM_FPS, parse_specifications
 
 from .atomic import writing
@@ -106,13 +106,7 @@ def _write_pieces(pieces: Iterable[str], path: Path) -> None:
 
 
 def _read_json(path: Path, text: str, load_face: Callable[[str], Face], address: str | None) -> StoredPerformance:
-    try:
-        data = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise LoadError(path, f"is not JSON: {error.msg}", line=error.lineno) from None
-    except RecursionError:
-        raise LoadError(path, "is nested too deeply to be a timeline") from None
-    stored = from_json(data, str(path))
+    stored = from_json(parse_json(text, str(path)).value, str(path))
     try:
         face = load_face(address or stored.face or DEFAULT_FACE)
     except MienError as error:

@@ -55,7 +55,7 @@ class Performance:
 
     def write(self, path: Path | str, **options: Any) -> None:
         """Writes it; the suffix picks the format: a film (``.mp4``, ``.webm``, ``.gif`` …), a folder of pictures,
-        ``.wav``, ``.srt``, ``.json``, ``.csv``, ``.glb``.
+        ``.wav``, ``.srt``, ``.TextGrid``, ``.json``, ``.csv``, ``.glb``.
 
         Options are those of ``mien.formats.write_performance``: ``fps``, ``scene``, ``threads``, ``subtitles`` (a file,
         or ``"burn"``), ``variable``, ``report``.

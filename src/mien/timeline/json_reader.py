@@ -105,3 +105,17 @@ class Node:
     def _mismatch(self, wanted: str) -> LoadError:
         shown = json.dumps(self.value, ensure_ascii=False)
         return self.error(f"want {wanted}, got {shown if len(shown) <= 40 else shown[:37] + '...'}")
+
+
+def parse_json(text: str, source: str) -> Node:
+    """The document that a text is.
+
+    Raises:
+        LoadError: it is no JSON, or nested deeper than anything of ours.
+    """
+    try:
+        return Node(json.loads(text), source)
+    except json.JSONDecodeError as error:
+        raise LoadError(source, f"is not JSON: {error.msg}", line=error.lineno) from None
+    except RecursionError:
+        raise LoadError(source, "is nested too deeply") from None
