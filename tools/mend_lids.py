@@ -31,7 +31,7 @@ def slide(arrays: dict[str, np.ndarray], kind: str, blink: np.ndarray, side: int
     """(V, 3) m, what the arcs of one shut eye, 1 left or -1 right, miss of its measured blink (V, 3) m.
 
     The reference's lower lid does not rise but slides towards the nose, by 3 mm. On the edges only that is taken,
-    alike above and below, so that they meet as they are.
+    alike above and below, so that they meet as they are; at the corners the edge sinks with the lip.
     """
     archive = _archive(arrays)
     lids = archive.measured(kind).lids
@@ -41,14 +41,18 @@ def slide(arrays: dict[str, np.ndarray], kind: str, blink: np.ndarray, side: int
     out = blink.copy()
     station = archive.ints("lid_station")
     own = lids.side == side
-    margin = {int(station[n]): int(lids.index[n]) for n in np.flatnonzero(own & (lids.ring == MARGIN))}
+    margin, lip = (
+        {int(station[n]): int(lids.index[n]) for n in np.flatnonzero(own & (lids.ring == ring))}
+        for ring in (MARGIN, EDGE)
+    )
     for n in np.flatnonzero(own):
         vertex, here = int(lids.index[n]), int(station[n])
         if lids.ring[n] > EDGE or (lids.ring[n] == EDGE and here in CORNERS):
             out[vertex] -= arcs[n] * flip
         else:
             across = margin[(STATIONS - here) % STATIONS]
-            out[vertex] = 0.5 * (blink[margin[here], 0] + blink[across, 0]), 0.0, 0.0
+            down, back = blink[lip[here], 1:] if here in CORNERS else (0.0, 0.0)
+            out[vertex] = 0.5 * (blink[margin[here], 0] + blink[across, 0]), down, back
     return out
 
 

@@ -134,11 +134,11 @@ def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
     points = measured.points
     taper = np.maximum(1.0 - 0.6 * (points[:, 0] / CORNER_X) ** 2, 0.35)
     left, right = (
-        bell(points, (side * CORNER_X, CENTRE[1]), (0.012, 0.011)) * own_side(points, side, 0.012) for side in (1, -1)
+        bell(points, (side * CORNER_X, CENTRE[1]), (0.0135, 0.0125)) * own_side(points, side, 0.012) for side in (1, -1)
     )
     left_red, right_red = (_by_ring(archive, CORNER_RINGS, CORNER_STATIONS, (side,)) for side in (0, 1))
     return MouthRegions(
-        around=ellipse(points, CENTRE, (0.027, 0.012), 2.2),
+        around=ellipse(points, CENTRE, (0.027, 0.018), 2.4),
         lips=ellipse(points, CENTRE, (0.026, 0.0105), 1.8) * taper,
         corner=(left, right),
         corner_lips=(left_red, right_red),
