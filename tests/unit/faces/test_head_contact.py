@@ -5,7 +5,7 @@ import pytest
 
 from mien.core import subdivide
 from mien.faces import load_face
-from mien.faces.head import lids
+from mien.faces.head import lids, mouth
 from mien.faces.head.measured import archive
 from support import in_python, lip_gap_mm
 
@@ -61,3 +61,34 @@ def test_an_upper_lip_rolled_in_and_raised_stays_in_front_of_the_teeth(more):
         lip = points[archive().vertex[f"{ring}_0"]]
         front = teeth[(np.abs(teeth[:, 0]) < 0.004) & (teeth[:, 1] < lip[1] + 0.002)]
         assert lip[2] > front[:, 2].max()
+
+
+def torn_lips(held, lower_at):
+    """Points of a pair, upper then lower, that a shape left so (m), once they are sealed."""
+    rings = len(mouth.CONTACT_RINGS)
+    points = np.zeros((2 * rings, 3))
+    points[rings:] = lower_at
+    shares = np.array(list(mouth.CONTACT_RINGS.values()))
+    numbers, touching = np.arange(2 * rings).reshape(1, 2, rings), np.array([[held, 0.0, 0.0, 0.0]])
+    in_python(mouth.seal_lips)(points, numbers, shares, touching)
+    return points[:rings], points[rings:]
+
+
+def test_a_lip_that_was_left_behind_comes_forward_and_the_other_one_stays():
+    upper, lower = torn_lips(1.0, (0.0, 0.0, 0.001))
+    np.testing.assert_allclose(upper[:, 2], 0.001 * np.array(list(mouth.CONTACT_RINGS.values())))
+    np.testing.assert_allclose(lower[:, 2], 0.001)
+
+
+def test_inner_edges_of_torn_lips_reach_past_one_another_up_to_a_most():
+    for torn_m, lock_m in ((0.001, 0.0015), (0.010, mouth.LOCK_M)):
+        upper, lower = torn_lips(1.0, (torn_m, 0.0, 0.0))
+        reached = (lower - upper)[:, 1]
+        assert reached[mouth.INNER] == pytest.approx(lock_m)
+        assert np.count_nonzero(reached) == 1
+
+
+def test_lips_that_are_open_are_left_as_they_are():
+    upper, lower = torn_lips(0.0, (0.001, -0.004, 0.003))
+    assert not upper.any()
+    np.testing.assert_array_equal(lower, np.tile((0.001, -0.004, 0.003), (len(lower), 1)))

@@ -49,6 +49,11 @@ TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
 CONTACT_RINGS = {"m0": 1.0, "mj": 0.3, "mi": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0.5, "m2": 0.2}
 """Shares of closing; the first ring is where the lips meet, whose gap is closed."""
 
+INNER = list(CONTACT_RINGS).index("mi")
+LOCK, LOCK_M = 1.5, 0.003
+"""How far inner edges of closed lips reach past one another, by how far a shape has torn the lips apart; and at most,
+so that they stay inside."""
+
 CONTACT_STATIONS = (
     (0, 9, 0.0001, 0.0005),
     (1, 8, 0.0001, 0.0005),
@@ -265,7 +270,7 @@ def bridge_lips(points, share, bridge):
 
 
 @kernel()
-def close_lips(points, closure, jaw_opening, numbers, shares, gaps, moves):
+def close_lips(points, closure, jaw_opening, numbers, shares, gaps, moves, touching):
     """Bring the lips of the skin into contact, whatever is left between them.
 
     Args:
@@ -276,6 +281,8 @@ def close_lips(points, closure, jaw_opening, numbers, shares, gaps, moves):
         shares: of ``Contacts``.
         gaps: of ``Contacts``.
         moves: (V, 3) filled with what contact adds.
+        touching: (C, 4) filled with how far each pair is closed, or lies together by itself, and the gap it should
+            have then, m.
     """
     for v in range(len(points)):
         for axis in range(3):
@@ -285,12 +292,15 @@ def close_lips(points, closure, jaw_opening, numbers, shares, gaps, moves):
         upper, lower = numbers[c, 0, 0], numbers[c, 1, 0]
         slit = points[upper, 1] - points[lower, 1] + gaps[c, 1]
         sticking = gaps[c, 5]
-        closed = max(closure, 1.0 - soft_step((slit - sticking) / sticking)) if slit > 0.0 else closure
+        near = max(closure, 1.0 - soft_step((slit - sticking) / sticking))
+        closed = near if slit > 0.0 else closure
+        touching[c, 0] = near
         upwards, downwards = closed * (1.0 - gaps[c, 4]), closed * gaps[c, 4]
         for axis in range(3):
             gap = points[lower, axis] - points[upper, axis] - gaps[c, axis]
             if axis == 1:
                 gap -= pressed * gaps[c, 3]
+            touching[c, 1 + axis] = points[lower, axis] - points[upper, axis] - closed * gap
             for ring in range(numbers.shape[2]):
                 moves[numbers[c, 0, ring], axis] += downwards * shares[ring] * gap
                 moves[numbers[c, 1, ring], axis] -= upwards * shares[ring] * gap
@@ -313,3 +323,30 @@ def stay_off_teeth(points, over_teeth, edge):
         front = edge[1] + TEETH_CLEAR_M - TEETH_ARCH * points[v, 0] * points[v, 0]
         if points[v, 2] < front:
             points[v, 2] += soft_step((points[v, 1] - edge[0]) / TEETH_EDGE_M) * (front - points[v, 2])
+
+
+@kernel()
+def seal_lips(points, numbers, shares, touching):
+    """Close again what shape and teeth have torn apart of closed lips of the skin (V, 3) m.
+
+    The lip that lies farther back comes forward, never into the teeth; and the inner edges, which nobody sees, reach
+    past one another, so that no slit lets one see through.
+
+    Args:
+        points: changed.
+        numbers: of ``Contacts``.
+        shares: of ``Contacts``.
+        touching: of ``close_lips``.
+    """
+    for c in range(len(touching)):
+        upper, lower, held = numbers[c, 0, 0], numbers[c, 1, 0], touching[c, 0]
+        torn, ahead = 0.0, 0.0
+        for axis in range(3):
+            ahead = points[lower, axis] - points[upper, axis] - touching[c, 1 + axis]
+            torn += ahead * ahead
+        behind = 0 if ahead > 0.0 else 1
+        for ring in range(numbers.shape[2]):
+            points[numbers[c, behind, ring], 2] += held * shares[ring] * abs(ahead)
+        lock = held * min(LOCK * np.sqrt(torn), LOCK_M)
+        points[numbers[c, 0, INNER], 1] -= 0.5 * lock
+        points[numbers[c, 1, INNER], 1] += 0.5 * lock

@@ -122,6 +122,7 @@ class Poser:
         self._skin = np.ascontiguousarray(measured.points).ravel()
         starts = [layout.span[name].start for name in posing.PARTS]
         lids, contacts = lid_table(measured.lids), mouth.contacts
+        self._pairs = len(contacts.numbers)
         lower = np.concatenate([layout.lower[name] for name in ("teeth", "gums")])
         below = layout.lower["teeth"]
         tongue = tongue_of(rest["tongue"], rest["teeth"][~below], rest["teeth"][below])
@@ -188,7 +189,10 @@ class Poser:
         count = len(values)
         skins = skins.reshape(count, -1, 3)
         size = skins.shape[1]
-        scratch = (np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)), np.empty((3, 4)))
+        scratch = (
+            *(np.empty((2, 3)), np.empty((7, 2)), np.empty((2, size, 3)), np.empty((2, size)), np.empty((3, 4))),
+            np.empty((self._pairs, 4)),
+        )
         flat, controls = points.reshape(count, -1), np.take(values, self._columns, axis=1)
         amounts = self._shaper.amounts(values)
         # A shape seldom changes from one pose to the next, so what only the shape moves is made once for each.

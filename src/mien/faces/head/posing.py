@@ -25,7 +25,7 @@ from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, meet_lids, move_lids
-from .mouth import bridge_lips, close_lips, copy_rows, move_lips, stay_off_teeth, tuck_lip
+from .mouth import bridge_lips, close_lips, copy_rows, move_lips, seal_lips, stay_off_teeth, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
@@ -91,7 +91,7 @@ def aim_eyes(c, balls, kappa_deg, angles, pivot, gaze):
 
 
 @kernel()
-def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
+def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves, touching):
     """Change a skin (S, 3) m, to which moves are added already: lips, jaw, contact of the lips, lids.
 
     Args:
@@ -105,6 +105,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
         lids: numbers, polar and rest of ``move_lids``; pairs and gaps of ``meet_lids``; opening at rest.
         scratch: (2, S, 3), overwritten.
         waves: (2, S), overwritten.
+        touching: of ``close_lips``, filled.
     """
     rows, regions, tuck_share = lips
     axis, share, open_angle_deg, residual = jaw
@@ -119,7 +120,7 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves):
     bridge_lips(skin, c[CLOSURE] * opened, bridge)
     if c[TUCK] != 0.0:
         tuck_lip(skin, before_jaw, rows, tuck_share, c[TUCK])
-    close_lips(skin, c[CLOSURE], opened, numbers, shares, gaps, moves)
+    close_lips(skin, c[CLOSURE], opened, numbers, shares, gaps, moves, touching)
     stay_off_teeth(skin, over_teeth, front)
     closed = closing(c[OPENING], rest_opening), closing(c[OPENING + 1], rest_opening)
     move_lids(skin, lid_numbers, lid_polar, lid_rest, closed, (elevation_deg(gaze[0, 1]), elevation_deg(gaze[1, 1])))
@@ -300,7 +301,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:], i8[:], f8[:,:], "  # what the skin takes of them
     "i8[:], i8[:], f8[:,:], "  # what the inside of the mouth takes of them
     "i8[:], i8[:], f8[:,:], "  # what is held takes of them
-    "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], f8[:,:], "  # scratch
+    "f8[:,:], f8[:,:], f8[:,:,:], f8[:,:], f8[:,:], f8[:,:], "  # scratch
     "f8[:,:,:], f8[:,:,:], f8[:,:], f8[:,:,:], f8[:,:,:]"
 )
 def pose_heads(
@@ -323,7 +324,7 @@ def pose_heads(
     skin_starts, skin_rows, skin_weights,
     inside_starts, inside_rows, inside_weights,
     held_starts, held_rows, held_weights,
-    gaze, radii, scratch, waves, held,
+    gaze, radii, scratch, waves, held, touching,
     skins, points, flat, normals, colors,
 ):
     """Fill the points of N heads, and the normals and shadows of as many as there is room for.
@@ -343,7 +344,7 @@ def pose_heads(
         neck_share: of ``turn_all``.
         rest: (3 R,) m, of the vertices from the first of the teeth on: at rest inside the mouth, shaped beyond it.
         amounts: (N, K), and what follows: of ``shape_points``, for the skin, the inside of the mouth, and the balls.
-        gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S), held (3, 4): overwritten.
+        gaze: (2, 3), radii (7, 2), scratch (2, S, 3), waves (2, S), held (3, 4), touching (C, 4): overwritten.
         skins: (N, S, 3) m with their moves; changed.
         points: (N, V, 3) m, filled.
         flat: (N, 3 V), the same memory: a run of numbers is copied several at a time.
@@ -361,7 +362,7 @@ def pose_heads(
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
         contacts = bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front
         lids = lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening
-        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves)
+        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves, touching)
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
         edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)
@@ -377,6 +378,7 @@ def pose_heads(
         upright = trace_rows(inside, carried[: parts[TONGUE] - parts[TEETH]], outlines)
         push_before(skin, (before, clearance, edge), c[ROLLED : ROLLED + 2], upright, outlines, pressed)
         give_way(inside, carried, upright, pressed)
+        seal_lips(skin, contact_numbers, contact_shares, touching)
         for v in range(len(source)):
             for axis in range(3):
                 out[v, axis] = skin[source[v], axis]
