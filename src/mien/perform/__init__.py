@@ -1,5 +1,6 @@
 """Speech and the life around it as one timeline: what a face does while it says something."""
 
+from .corrected import correct, cues_for_speech
 from .performance import Performance, check_emotion, listen, perform
 from .style import NamedStyle, Style, named_styles, parse_style, style_table
 from .style_files import load_style, read_style
@@ -9,6 +10,8 @@ __all__ = [
     "Performance",
     "Style",
     "check_emotion",
+    "correct",
+    "cues_for_speech",
     "listen",
     "load_style",
     "named_styles",
