@@ -30,6 +30,9 @@ CORE_S = 0.08
 ROUND_CORE_S = 0.0833
 """Time that lips spend on a rounded target at least: a frame at 12 frames a second."""
 
+ROUND_DOMINANCE = 2.0
+"""Least dominance of a rounded phone over the lips, so that no neighbours leave it less than half round."""
+
 ROUNDED = 0.6
 """From this target on, lips are round: oo, w and both parts of oh."""
 
@@ -203,12 +206,14 @@ def spread_dominance(sounds: Gestures, amount: float) -> Gestures:
 
 
 def keep_round(sounds: Gestures, amount: float) -> Gestures:
-    """Rounded phones that keep the lips on their target for a frame's time."""
+    """Rounded phones that keep the lips on their target for a frame's time, whatever is beside them."""
     column = BLENDED.index("round")
     rounded = np.array([row.targets[column] >= ROUNDED for row in sounds.rows], dtype=bool)
     core = sounds.half_core_s.copy()
     core[rounded, LIPS] = np.maximum(core[rounded, LIPS], 0.5 * amount * ROUND_CORE_S)
-    return replace(sounds, half_core_s=core)
+    dominance = sounds.dominance.copy()
+    dominance[rounded, LIPS] = np.maximum(dominance[rounded, LIPS], amount * ROUND_DOMINANCE)
+    return replace(sounds, half_core_s=core, dominance=dominance)
 
 
 PASSES: Mapping[str, Pass] = MappingProxyType(

@@ -1,17 +1,22 @@
-"""The main job on the real head: what is drawn has its lips shut at every p, b and m, at any frame rate."""
+"""The main job on the real head: lips shut at every p, b and m, tucked at f and v, round at oo, at any frame rate."""
 
 import numpy as np
 import pytest
 
 from mien.core import Cue, Pose, Sound, subdivide
 from mien.faces import load_face
+from mien.faces.head.measured import archive
 from mien.perform import perform
 from mien.speech import Speech, strip_stress
 from support import lip_gap_mm
 
 HEAD = load_face("head")
+RATES = (12, 24000 / 1001, 24, 25, 30, 60)
+UPRIGHT = {"head.nod": 0.0, "head.turn": 0.0, "head.tilt": 0.0}
 SHUT_MM = 0.45
 """Lips at rest touch with edges 0.3 mm apart."""
+ROUND_SHUT_MM = 0.95
+"""Where lips are pursed, other rings of them touch, and these edges are behind that."""
 
 LINES = (  # the poem's first two lines: phones of ordinary length, seconds
     ("SIL", 0.2), ("HH", 0.06), ("AW1", 0.17), ("HH", 0.05), ("AE1", 0.12), ("P", 0.08), ("IY0", 0.11), ("IH0", 0.06),
@@ -23,16 +28,23 @@ LINES = (  # the poem's first two lines: phones of ordinary length, seconds
 )  # fmt: skip
 
 
-def cues():
+ROUND_LINES = (  # move over, we food a boom
+    ("SIL", 0.2), ("M", 0.07), ("UW1", 0.12), ("V", 0.05), ("OW1", 0.15), ("V", 0.05), ("ER0", 0.12), ("SIL", 0.06),
+    ("W", 0.05), ("IY1", 0.1), ("F", 0.06), ("UW1", 0.1), ("D", 0.05), ("AH0", 0.06), ("B", 0.05), ("UW1", 0.11),
+    ("M", 0.07), ("SIL", 0.35),
+)  # fmt: skip
+
+
+def cues(lines=LINES):
     out, start = [], 0.0
-    for symbol, length in LINES:
+    for symbol, length in lines:
         out.append(Cue(start, start + length, symbol))
         start += length
     return tuple(out)
 
 
-def speech():
-    phones = cues()
+def speech(lines=LINES):
+    phones = cues(lines)
     return Speech("the poem", Sound.silence(phones[-1].end_s), (), phones, (), "none")
 
 
@@ -41,7 +53,7 @@ def gap_mm(values):
 
 
 @pytest.mark.parametrize("emotion", [name for name, preset in HEAD.presets.items() if preset.kind == "expression"])
-@pytest.mark.parametrize("fps", [12, 24, 25, 30, 60])
+@pytest.mark.parametrize("fps", RATES)
 def test_lips_are_shut_in_some_frame_of_every_p_b_m(fps, emotion):
     timeline = perform(speech(), HEAD, emotion=emotion).timeline
     times = timeline.frame_times(fps)
@@ -58,3 +70,54 @@ def test_lips_are_open_in_the_vowels():
     vowels = [cue for cue in timeline.phones if cue.symbol in ("AW1", "AE1", "OW1")]
     values = timeline.values(np.array([cue.centre_s for cue in vowels]), HEAD.parameters)
     assert min(gap_mm(row) for row in values) > 2.0
+
+
+def upright(values):
+    """(V, 3) mm of a head that neither nods nor turns."""
+    return 1000.0 * HEAD.shape(Pose(HEAD.parameters, values).replace(UPRIGHT)).points
+
+
+def width_mm(points):
+    corner = archive().vertex["m0_5"]
+    return points[corner, 0] - points[archive().mirror[corner], 0]
+
+
+def tuck_mm(points):
+    """How far the edge of the lower lip lies above the edge of the upper front teeth, and before them."""
+    teeth = points[HEAD._layout.span["teeth"]][~HEAD._layout.lower["teeth"]]
+    front = teeth[np.abs(teeth[:, 0]) < 8.0]
+    lip = points[archive().vertex["m0_9"]]
+    return lip[1] - front[:, 1].min(), lip[2] - front[:, 2].max()
+
+
+@pytest.fixture(scope="module")
+def round_timeline():
+    return perform(speech(ROUND_LINES), HEAD).timeline
+
+
+@pytest.mark.parametrize("fps", RATES)
+def test_lips_are_round_and_tucked_in_the_frame_nearest_to_the_middle(fps, round_timeline):
+    rest = upright(HEAD.neutral.values)
+    seen = {"F": 0, "V": 0, "W": 0, "UW": 0, "OW": 0}
+    for cue in round_timeline.phones:
+        sound = strip_stress(cue.symbol)
+        if sound in seen:
+            frame = round(cue.centre_s * fps) / fps
+            points = upright(round_timeline.values([frame], HEAD.parameters)[0])
+            if sound in ("F", "V"):
+                above, before = tuck_mm(points)
+                assert abs(above) < 3.5, cue
+                assert before < tuck_mm(rest)[1] - 3.0, cue
+            else:
+                assert width_mm(points) < 0.75 * width_mm(rest), cue
+            seen[sound] += 1
+    assert seen == {"F": 1, "V": 2, "W": 1, "UW": 3, "OW": 1}
+
+
+@pytest.mark.parametrize("fps", RATES)
+def test_lips_shut_between_round_sounds_too(fps, round_timeline):
+    for cue in round_timeline.phones:
+        if cue.symbol in ("M", "B"):
+            frame = round(cue.centre_s * fps) / fps
+            values = round_timeline.values([frame], HEAD.parameters)[0]
+            assert gap_mm(values) < ROUND_SHUT_MM, cue
