@@ -2,41 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
-from types import MappingProxyType
 
 from mien.core import LoadError
 from mien.timeline.rates import time_of
 
 from .cue_frames import choose_shapes
-from .cue_rhubarb import find_rest, find_steps, sheet_of_steps
+from .cue_rhubarb import find_steps, set_of, sheet_of_steps
+from .cue_shapes import shape_sets
 from .cue_sheet import SHAPES, CueSheet
 from .cue_text import parse_number
 from .cue_tsv import check_plain
 
 HEAD = "MohoSwitch1"
 
-PRESTON_BLAIR: Mapping[str, str] = MappingProxyType(
-    {"A": "MBP", "B": "etc", "C": "E", "D": "AI", "E": "O", "F": "U", "G": "FV", "H": "L", "X": "rest"}
-)
-"""What Moho's and OpenToonz's own mouths are called, by Rhubarb's letter.
-
-Source: Rhubarb Lip Sync 1.13, option ``--datUsePrestonBlair``.
-"""
-
 
 def format_dat(sheet: CueSheet, rate: Fraction, tier: str = SHAPES) -> Iterator[str]:
     """Lines of a frame and the shape from there on; no closed or tucked mouth is lost, however short.
 
-    Rhubarb's letters become the names of Preston Blair's mouths; other names stay.
+    Rhubarb's letters become the names of Preston Blair's mouths, which are those of Moho's and OpenToonz's own faces;
+    other names stay.
+
+    Source: Rhubarb Lip Sync 1.13, option ``--datUsePrestonBlair``, has the same mouths.
     """
-    cues, rest = sheet.tier(tier), find_rest(sheet, tier)
-    shapes = choose_shapes(cues, sheet.length_s, rate, rest)
-    names = PRESTON_BLAIR if {*shapes, rest} <= PRESTON_BLAIR.keys() else {}
+    names = set_of(sheet, tier)
+    shapes = choose_shapes(sheet.tier(tier), sheet.length_s, rate, names)
     changes = [(frame, after) for frame, (before, after) in enumerate(pairwise(["", *shapes]), 1) if after != before]
-    return _lines([(frame, names.get(shape, shape)) for frame, shape in [*changes, (len(shapes) + 1, rest)]])
+    renamed = _rename if names.name == "rhubarb" else str
+    return _lines([(frame, renamed(shape)) for frame, shape in [*changes, (len(shapes) + 1, names.rest)]])
+
+
+def _rename(letter: str) -> str:
+    sets = shape_sets()
+    mouth = sets["rhubarb"].mouths.get(letter)
+    return letter if mouth is None else sets["preston-blair"].name_of(mouth)
 
 
 def format_rhubarb_dat(sheet: CueSheet, rate: Fraction, tier: str = SHAPES) -> Iterator[str]:
@@ -45,7 +46,7 @@ def format_rhubarb_dat(sheet: CueSheet, rate: Fraction, tier: str = SHAPES) -> I
     for cue in find_steps(sheet, tier):
         frames.setdefault(1 + int(float(rate) * cue.start_s), cue.symbol)
     end = 1 + int(float(rate) * round(sheet.length_s, 2))
-    return _lines([*frames.items(), (end + (end in frames), find_rest(sheet, tier))])
+    return _lines([*frames.items(), (end + (end in frames), set_of(sheet, tier).rest)])
 
 
 def _lines(changes: list[tuple[int, str]]) -> Iterator[str]:

@@ -13,8 +13,10 @@ from mien.timeline import Rate
 from mien.timeline.json_reader import parse_json
 
 from .atomic import check_file, writing
+from .cue_chart import format_chart
 from .cue_dat import format_dat, format_rhubarb_dat, parse_dat
 from .cue_json import format_json, read_json
+from .cue_page import format_page
 from .cue_rhubarb import (
     format_rhubarb_json,
     format_rhubarb_tsv,
@@ -66,6 +68,8 @@ WRITERS: Mapping[tuple[str, str], Writer] = MappingProxyType(
         (".vtt", "mien"): lambda sheet, wanted: format_vtt(subtitles_of(sheet, wanted.tier)),
         (".dat", "mien"): lambda sheet, wanted: format_dat(sheet, wanted.rate, wanted.tier or SHAPES),
         (".dat", "rhubarb"): lambda sheet, wanted: format_rhubarb_dat(sheet, wanted.rate, wanted.tier or SHAPES),
+        (".csv", "mien"): lambda sheet, wanted: format_chart(sheet, wanted.rate, wanted.tier or SHAPES),
+        (".html", "mien"): lambda sheet, wanted: format_page(sheet, wanted.rate, wanted.tier or SHAPES),
     }
 )
 """By suffix and layout."""

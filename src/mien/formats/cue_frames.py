@@ -9,11 +9,15 @@ from fractions import Fraction
 from mien.core import Cue
 from mien.timeline import Timeline
 
-SEALED = frozenset({"A", "G", "MBP", "FV", "PP", "FF", "18", "21"})
-"""Shapes that an eye misses: shut for p b m, tucked for f v; as Rhubarb, Preston Blair, Oculus and SAPI name them."""
+from .cue_shapes import ShapeSet
 
 _NEAR = 1e-6
 """Of a frame: by which a cue may begin after its moment and still be on it, for times that were rounded."""
+
+
+def count_frames(length_s: float, rate: Fraction) -> int:
+    """Number of frames of a recording; at least one."""
+    return Timeline((), length_s).frame_count(rate)
 
 
 def place_cues(cues: Sequence[Cue], length_s: float, rate: Fraction) -> tuple[tuple[Cue, ...], ...]:
@@ -23,7 +27,7 @@ def place_cues(cues: Sequence[Cue], length_s: float, rate: Fraction) -> tuple[tu
 
     Source: Parke 1974, section 4.3, has the problem: lip motions that last only a frame or two.
     """
-    placed: list[list[Cue]] = [[] for _ in range(Timeline((), length_s).frame_count(rate))]
+    placed: list[list[Cue]] = [[] for _ in range(count_frames(length_s, rate))]
     for cue in cues:
         first, last = (math.ceil(time_s * float(rate) - _NEAR) for time_s in (cue.start_s, cue.end_s))
         if first == last:
@@ -33,13 +37,11 @@ def place_cues(cues: Sequence[Cue], length_s: float, rate: Fraction) -> tuple[tu
     return tuple(map(tuple, placed))
 
 
-def choose_shapes(shapes: Sequence[Cue], length_s: float, rate: Fraction, rest: str) -> tuple[str, ...]:
-    """The shape of each frame: the one at its moment, but shut and tucked lips win; ``rest`` where there is none."""
-    return tuple(
-        next((cue.symbol for cue in there if cue.symbol in SEALED), _longest(there) if there else rest)
-        for there in place_cues(shapes, length_s, rate)
-    )
+def choose_shapes(shapes: Sequence[Cue], length_s: float, rate: Fraction, names: ShapeSet) -> tuple[str, ...]:
+    """The shape of each frame: the one at its moment, but shut and tucked lips win; the one of rest in gaps."""
 
+    def choose(there: Sequence[Cue]) -> str:
+        sealed = [cue for cue in there if names.is_sealed(cue.symbol)]
+        return max(sealed or there, key=lambda cue: cue.length_s).symbol if there else names.rest
 
-def _longest(cues: Sequence[Cue]) -> str:
-    return max(cues, key=lambda cue: cue.length_s).symbol
+    return tuple(map(choose, place_cues(shapes, length_s, rate)))

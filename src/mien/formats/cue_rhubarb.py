@@ -14,19 +14,17 @@ from xml.sax.saxutils import escape
 from mien.core import Cue, LoadError
 from mien.timeline.json_reader import Node
 
+from .cue_shapes import ShapeSet, find_set
 from .cue_sheet import SHAPES, CueSheet, fill_gaps, place_of
 from .cue_text import Interval, check_intervals, parse_number
 from .cue_tsv import check_plain
-
-RESTS = ("X", "rest", "sil", "0")
-"""What the mouth of a pause is called by Rhubarb, Preston Blair, Oculus and SAPI."""
 
 
 def format_rhubarb_tsv(sheet: CueSheet, tier: str = SHAPES) -> Iterator[str]:
     """Lines of a time and the shape that begins there; the last is the end, with the mouth at rest."""
     for number, cue in enumerate(find_steps(sheet, tier), start=1):
         yield f"{cue.start_s:.2f}\t{check_plain(cue.symbol, place_of(tier, number))}\n"
-    yield f"{sheet.length_s:.2f}\t{find_rest(sheet, tier)}\n"
+    yield f"{sheet.length_s:.2f}\t{set_of(sheet, tier).rest}\n"
 
 
 def format_rhubarb_xml(sheet: CueSheet, tier: str = SHAPES) -> Iterator[str]:
@@ -50,10 +48,9 @@ def format_rhubarb_json(sheet: CueSheet, tier: str = SHAPES) -> Iterator[str]:
     yield "\n  ]\n}\n"
 
 
-def find_rest(sheet: CueSheet, tier: str) -> str:
-    """What a tier calls the mouth of a pause; Rhubarb's name where it has none."""
-    symbols = {cue.symbol for cue in sheet.tier(tier)}
-    return next((rest for rest in RESTS if rest in symbols), RESTS[0])
+def set_of(sheet: CueSheet, tier: str) -> ShapeSet:
+    """Whose names the shapes of a tier have."""
+    return find_set(cue.symbol for cue in sheet.tier(tier))
 
 
 def find_steps(sheet: CueSheet, tier: str) -> Iterator[Cue]:
@@ -61,7 +58,7 @@ def find_steps(sheet: CueSheet, tier: str) -> Iterator[Cue]:
 
     What lasts less than half a hundredth has no place in such a file.
     """
-    cues = fill_gaps(sheet.tier(tier), sheet.length_s, find_rest(sheet, tier))
+    cues = fill_gaps(sheet.tier(tier), sheet.length_s, set_of(sheet, tier).rest)
     edges = [(round(100 * cue.start_s), cue.symbol) for cue in cues]
     end = round(100 * sheet.length_s)
     lasting = [(start, symbol) for (start, symbol), (stop, _) in pairwise([*edges, (end, "")]) if stop > start]

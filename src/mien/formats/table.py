@@ -51,6 +51,7 @@ FORMATS: tuple[Format, ...] = (
         ("cues", "timing"),
         "words, phones and mouth shapes with their times: table ``cue_files``",
     ),
+    Format("chart", (".csv", ".html"), ("cues",), "an exposure sheet: a row a frame with its word, phone and mouth"),
     Format("plot", (".png", ".svg", ".pdf"), ("plot",), "curves over time"),
 )
 
