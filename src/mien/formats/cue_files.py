@@ -10,6 +10,8 @@ from types import MappingProxyType
 
 from mien.core import LoadError, MienError, UnknownNameError
 from mien.timeline import Rate
+from mien.timeline.json_form import FORMAT as TIMELINE
+from mien.timeline.json_form import from_json
 from mien.timeline.json_reader import parse_json
 
 from .atomic import check_file, writing
@@ -25,7 +27,7 @@ from .cue_rhubarb import (
     parse_rhubarb_xml,
     read_rhubarb_json,
 )
-from .cue_sheet import SHAPES, CueSheet
+from .cue_sheet import SHAPES, CueSheet, sheet_of
 from .cue_subtitles import parse_subtitles, subtitles_of
 from .cue_text import read_text
 from .cue_textgrid import format_textgrid, parse_textgrid
@@ -115,7 +117,7 @@ def read_cue_file(path: Path | str, *, fps: Rate = DEFAULT_FPS) -> CueSheet:
     """Words, phones and shapes of a file that ``write_cue_file`` or another program wrote; the suffix decides.
 
     Args:
-        path: any but an exposure sheet.
+        path: any but an exposure sheet; of a ``.json`` timeline, as ``mien say`` writes, its words and phones.
         fps: frames a second that a ``.dat`` file counts in.
 
     Raises:
@@ -160,9 +162,14 @@ def _check(path: Path, layout: str) -> tuple[str, str]:
 
 
 def _parse_json(text: str, source: str) -> CueSheet:
+    """The sheet of a document of ours, of Rhubarb's, or of a timeline, which has words and phones too."""
     document = parse_json(text, source)
-    rhubarb = isinstance(document.value, dict) and "mouthCues" in document.value
-    return read_rhubarb_json(document) if rhubarb else read_json(document)
+    keys = document.value if isinstance(document.value, dict) else {}
+    if "mouthCues" in keys:
+        return read_rhubarb_json(document)
+    if keys.get("format") == TIMELINE:
+        return sheet_of(from_json(document.value, source).timeline)
+    return read_json(document)
 
 
 def _parse_tsv(text: str, source: str) -> CueSheet:

@@ -90,6 +90,8 @@ def find_fault(cue: Cue, end_s: float, length_s: float) -> str:
         end_s: where the cue before it ends, seconds; 0 for the first.
         length_s: of the recording, seconds.
     """
+    if 0.0 <= cue.start_s < cue.end_s <= length_s and cue.start_s >= end_s:
+        return ""
     span = f"{cue.symbol!r} from {cue.start_s:.10g} to {cue.end_s:.10g} s"
     if not (math.isfinite(cue.start_s) and math.isfinite(cue.end_s)):
         return f"{span} has a time that is no finite number"

@@ -17,10 +17,11 @@ from .cue_text import Interval, check_intervals
 _POINT_TIERS = ("TextTier", "PointTier")
 
 _TOKEN = re.compile(
-    r'(?P<text>"[^"]*(?:""[^"]*)*")|(?P<flag><\w+>)|(?P<comment>!.*)|(?P<number>[-+]?\.?\d\S*|nan|inf|--undefined--)(?!\S)'
-    r"|(?P<other>\S+)"
+    r"(?<!\S)(?:"
+    r'(?P<text>"[^"]*(?:""[^"]*)*")|(?P<open>")|(?P<flag><\w+>)|(?P<comment>!.*)|'
+    r"(?P<number>(?:[-+]?\.?\d\S*|nan|inf|--undefined--)(?!\S)))"
 )
-"""What stands free between blanks; of it texts, flags and numbers count, all else is there for people."""
+"""What counts of what stands free between blanks: texts, flags and numbers. All else is there for people."""
 
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[a-zA-Z]*")
 """A number, with a unit if it has one."""
@@ -103,7 +104,7 @@ class _Tokens:
 
     def __init__(self, text: str, source: str) -> None:
         self._text, self.source = text, source
-        self._place, self._line = 0, 1
+        self._place, self._counted, self._line = 0, 0, 1
         self.last_line = 1
         self.next = self._find()
 
@@ -143,14 +144,13 @@ class _Tokens:
 
     def _find(self) -> _Token | None:
         while match := _TOKEN.search(self._text, self._place):
-            self._line += self._text.count("\n", self._place, match.start())
+            self._line += self._text.count("\n", self._counted, match.start())
+            self._counted, self._place = match.start(), match.end()
             token = _Token(match.lastgroup or "", match[0], self._line)
-            self._line += match[0].count("\n")
-            self._place = match.end()
-            if token.kind == "other" and token.text.startswith('"'):
+            if token.kind == "open":
                 self.last_line = token.line
                 raise self.error("a text begins here and is never closed", "is it cut off?")
-            if token.kind not in ("comment", "other"):
+            if token.kind != "comment":
                 return token
         return None
 

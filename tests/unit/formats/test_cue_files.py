@@ -228,13 +228,24 @@ def test_what_is_said_becomes_a_textgrid(tmp_path: Path) -> None:
     }
 
 
+def test_a_timeline_has_cues_too(tmp_path: Path) -> None:
+    sheet = hello()
+    timeline = Timeline((), 1.5, words=sheet.tiers["words"], phones=sheet.tiers["phones"], text=sheet.text)
+    write_performance(replace(opening_jaw(), timeline=timeline), tmp_path / "a.json")
+    read = read_cue_file(tmp_path / "a.json")
+    assert (read.text, read.length_s) == (sheet.text, 1.5)
+    assert read.tiers == {"words": sheet.tiers["words"], "phones": sheet.tiers["phones"]}
+
+
 FAULTS = [
     ("a.json", "", "is empty"),
     ("a.tsv", "  \n", "is empty"),
     ("a.json", "{", r"a\.json:1: is not JSON"),
     ("a.json", "[" * 100_000, "nested too deeply|is not JSON"),
     ("a.json", "[]", "want an object"),
-    ("a.json", '{"format": "mien-timeline", "version": 1}', 'want "format": "mien-cues"'),
+    ("a.json", '{"format": "mien-face", "version": 1}', 'want "format": "mien-cues"'),
+    ("a.json", '{"format": "mien-timeline", "version": 1, "length_s": 1, "layers": []}', "no word is said"),
+    ("a.json", '{"format": "mien-timeline", "version": 1}', "'length_s' is missing"),
     ("a.json", '{"format": "mien-cues", "version": 2, "length_s": 1, "tiers": {}}', "version: want version 1, got 2"),
     ("a.json", '{"format": "mien-cues", "version": 1, "length_s": 1}', "'tiers' is missing"),
     ("a.json", '{"format": "mien-cues", "version": 1, "length_s": 1, "tiers": {}}', "there is no tier"),
