@@ -16,8 +16,9 @@ from .subtitles import Subtitle, make_subtitles
 
 _TIMES = re.compile(r"\s*([\d:.,]+)\s+-->\s+([\d:.,]+)(?:\s.*)?")
 _CLOCK = re.compile(r"(?:(\d{1,4}):)?(\d{1,2}):(\d{1,2})[.,](\d{3})")
-_TAG = re.compile(r"</?[a-zA-Z0-9][^>]*>|\{\\[^}]*\}")
-"""Italics, voices, times of words, and places on the screen as SubRip files have them."""
+_SRT_TAG = re.compile(r"</?(?:[bius]|font)(?: [^>]*)?>|\{\\[^}]*\}", re.IGNORECASE)
+_VTT_TAG = re.compile(r"</?[a-zA-Z0-9][^>]*>")
+"""Italics and places on the screen; in WebVTT, voices and the times of words as well."""
 
 _UNSEEN = ("WEBVTT", "NOTE", "STYLE", "REGION")
 """First words of the blocks of a WebVTT file that nobody reads."""
@@ -34,7 +35,9 @@ def subtitles_of(sheet: CueSheet, tier: str | None = None) -> Sequence[Subtitle]
         timeline = Timeline((), sheet.length_s, words=sheet.tier(WORDS), text=sheet.text)
         subtitles: Sequence[Subtitle] = make_subtitles(timeline)
     else:
-        subtitles = [Subtitle(cue.start_s, cue.end_s, (cue.symbol,)) for cue in sheet.tier(tier or LINES)]
+        subtitles = [
+            Subtitle(cue.start_s, cue.end_s, (" ".join(cue.symbol.split()),)) for cue in sheet.tier(tier or LINES)
+        ]
     if not subtitles:
         raise MienError(f"tier {tier or WORDS!r} is empty, so there are no subtitles")
     return subtitles
@@ -56,6 +59,7 @@ def parse_subtitles(text: str, source: str) -> CueSheet:
 
 def _read_blocks(text: str, source: str) -> Iterator[Interval]:
     lines = enumerate(text.split("\n"), start=1)
+    marked_up = text.startswith("WEBVTT")
     number = 0
     for blank, block in groupby(lines, key=lambda numbered: not numbered[1].strip()):
         rows = list(block)
@@ -69,7 +73,8 @@ def _read_blocks(text: str, source: str) -> Iterator[Interval]:
         if match is None:
             raise LoadError(source, f"subtitle {number}: want '00:00:01,000 --> 00:00:02,000', got {row!r}", line=line)
         start_s, end_s = (_seconds(clock, source, line) for clock in match.groups())
-        shown = html.unescape(_TAG.sub("", " ".join(row.strip() for _, row in rows[at + 1 :])))
+        shown = " ".join(row.strip() for _, row in rows[at + 1 :])
+        shown = html.unescape(_VTT_TAG.sub("", shown)) if marked_up else _SRT_TAG.sub("", shown)
         yield Interval(f"subtitle {number}", line, Cue(start_s, end_s, shown))
 
 

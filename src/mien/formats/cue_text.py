@@ -51,7 +51,7 @@ def read_text(path: Path) -> str:
         text = data.decode(encoding)
     except UnicodeDecodeError as error:
         raise LoadError(
-            path, f"is no {encoding.upper()} text (byte {error.start})", hint="save it as UTF-8 and try again"
+            path, f"is no {encoding.upper()} text (byte {error.start})", hint="save it as text in UTF-8"
         ) from None
     return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 

@@ -156,12 +156,12 @@ class _Tokens:
 
 
 def _read_head(tokens: _Tokens) -> None:
+    if tokens.next is None or tokens.next.kind != "text":
+        raise tokens.error("is no TextGrid", "in Praat: Save as text file")
     kind = tokens.text("file type")
-    if kind.startswith("Praat chronological"):
-        raise tokens.error("is a chronological TextGrid", "in Praat: Save as text file")
     held = tokens.text("object class") if kind.startswith("ooTextFile") else kind
     if held != "TextGrid":
-        raise tokens.error(f"holds {held!r}, want a TextGrid")
+        raise tokens.error(f"holds {held!r}, want a TextGrid", "in Praat: Save as text file")
 
 
 def _read_intervals(tokens: _Tokens, name: str, length_s: float) -> tuple[Cue, ...]:

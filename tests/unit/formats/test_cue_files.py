@@ -168,6 +168,18 @@ def test_subtitles_of_other_programs_are_read(tmp_path: Path) -> None:
     assert sheet.text == "Hello there, friend <end>"
 
 
+def test_what_only_looks_like_a_mark_stays_in_subrip(tmp_path: Path) -> None:
+    path = tmp_path / "a.srt"
+    path.write_text("1\n00:00:01,000 --> 00:00:02,000\n{\\an8}<i>AT&amp;T</i> <x> <font color=red>no</font>\n")
+    assert read_cue_file(path).text == "AT&amp;T <x> no"
+
+
+def test_a_line_break_in_a_cue_breaks_no_block(tmp_path: Path) -> None:
+    for name in ("a.srt", "a.vtt"):
+        write_cue_file(CueSheet(1.0, {"lines": (Cue(0.0, 1.0, "one\n\ntwo"),)}), tmp_path / name)
+        assert read_cue_file(tmp_path / name).tiers == {"lines": (Cue(0.0, 1.0, "one two"),)}
+
+
 def test_a_dat_of_ours_loses_no_closed_mouth_and_has_the_names_of_preston_blair(tmp_path: Path) -> None:
     shapes = (Cue(0.0, 0.5, "B"), Cue(0.5, 0.52, "A"), Cue(0.52, 0.9, "D"), Cue(0.9, 0.91, "C"), Cue(0.91, 1.0, "X"))
     sheet = CueSheet(1.0, {"shapes": shapes})

@@ -146,6 +146,13 @@ def test_a_line_break_in_a_label_stays() -> None:
     ("old", "new", "line", "said"),
     [
         ('"TextGrid"', '"Sound"', 2, "holds 'Sound', want a TextGrid"),
+        ('"ooTextFile"\nObject class = "TextGrid"', "17", 1, "is no TextGrid — in Praat: Save as text file"),
+        (
+            '"ooTextFile"',
+            '"Praat chronological TextGrid text file"',
+            1,
+            "holds 'Praat chronological TextGrid text file'",
+        ),
         ("<exists>", "<absent>", 6, "has no tiers"),
         ("xmax = 1.5 \ntiers", "xmax = 0 \ntiers", 5, "no span of time"),
         ("size = 2", "size = 3", 36, "size is 3, but the tiers end after 2"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
+from dataclasses import replace
 from importlib import resources
 from itertools import pairwise
 from pathlib import Path
@@ -14,6 +15,7 @@ from mien.core import Cue, MienError, Sound, UnknownNameError
 from mien.formats import CueSheet, read_cue_file, write_cue_file
 from mien.perform import correct, cues_for_speech
 from mien.speech import PHONES, Speech
+from mien.speech.mouth import articulate
 
 
 def sheet(*labels: str, tier: str = "phones", step_s: float = 0.1) -> CueSheet:
@@ -134,6 +136,21 @@ def test_what_is_corrected_wins_over_ours() -> None:
     assert (speech.text, speech.voice) == ("Oh!", "somebody")
     assert speech.sound is before.sound
     assert correct(said(), sheet("M")).words == said().words
+
+
+def test_a_closure_moved_by_hand_moves_the_mouth(tmp_path: Path) -> None:
+    cues = (Cue(0.0, 0.2, "AA1"), Cue(0.2, 0.3, "M"), Cue(0.3, 0.6, "AA0"))
+    speech = replace(said(), phones=cues)
+    path = tmp_path / "a.TextGrid"
+    write_cue_file(CueSheet(0.6, {"words": speech.words, "phones": speech.phones}), path)
+    path.write_text(path.read_text().replace("= 0.2 ", "= 0.4 ").replace("= 0.3 ", "= 0.5 "))
+    moved = correct(speech, read_cue_file(path))
+
+    def closed_s(speech: Speech) -> float:
+        times, values = articulate(speech.phones)["closure"].given()
+        return float(times[values == values.max()].mean())
+
+    assert closed_s(moved) - closed_s(speech) == pytest.approx(0.2, abs=0.02)
 
 
 def test_timing_of_another_recording_is_refused() -> None:
