@@ -1,11 +1,13 @@
-"""What each pass of the mouth is there for, and what is lost without it: ``python benchmarks/passes.py``.
+"""What each pass of the mouth is there for, and what is lost without it: ``python benchmarks/passes.py [--write]``.
 
+``--write`` brings the tables of ``docs/passes.md`` up to date.
 The phones are those of Parke's poem and of some sentences full of labials, as the built-in voice says them
 (``phones.csv``), so that the numbers are the same on every machine.
 """
 
 from __future__ import annotations
 
+import argparse
 import csv
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,11 +17,13 @@ from pathlib import Path
 import numpy as np
 
 from mien.core import Cue
+from mien.perform import named_styles, style_table
 from mien.speech.articulation import USUAL, Articulation, amounts
 from mien.speech.mouth import articulate
 from mien.speech.mouth_table import GROUPS, bare, phone_table, stress
 
 PHONES = Path(__file__).with_name("phones.csv")
+PAGE = Path(__file__).parents[1] / "docs/passes.md"
 STEP_S = 0.001
 JAW_MM = 20.0
 """Between the front teeth at a full jaw channel. Source: vocab/data/channels.head.csv."""
@@ -191,17 +195,43 @@ def read_phones(path: Path = PHONES) -> tuple[Cue, ...]:
     return tuple(out)
 
 
-def table(phones: Sequence[Cue]) -> str:
-    """The ablation as a table in Markdown: each measure with its pass as usual, off and at its greatest amount."""
+def ablation(phones: Sequence[Cue]) -> str:
+    """Each measure with its pass as usual, off and at its greatest amount, as a table in Markdown."""
     usual = Said(tuple(phones))
-    lines = ["| pass | measured by | usual | off | at most |", "|---|---|---|---|---|"]
+    lines = ["| pass | measured by | usual | off | at 2 |", "|---|---|---|---|---|"]
     for name, (measure, unit) in MEASURES.items():
         row = amounts()[name]
         cells = [measure(usual), measure(Said(usual.phones, Articulation(**{name: 0.0})))]
         cells += [measure(Said(usual.phones, Articulation(**{name: row.high})))] if row.high > 1.0 else []
         shown = [f"{value:.{0 if abs(value) >= 20 else 1}f} {unit}" for value in cells]
         lines.append(f"| `{name}` | {row.measure} | {' | '.join([*shown, '—'][:3])} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines)
+
+
+def rows() -> str:
+    """What a style can set, as a table in Markdown."""
+    lines = ["| amount | what it does | range | source |", "|---|---|---|---|"]
+    return "\n".join(
+        lines + [f"| `{row.name}` | {row.doc} | 0 to {row.high:g} | {row.source} |" for row in style_table().values()]
+    )
+
+
+def styles() -> str:
+    """The styles that have a name, as a table in Markdown."""
+    lines = ["| style | amounts | what it is like |", "|---|---|---|"]
+    for style in named_styles().values():
+        given = " ".join(f"{name}={value:g}" for name, value in style.amounts.items())
+        lines.append(f"| `{style.name}` | {given} | {style.doc} |")
+    return "\n".join(lines)
+
+
+def fill(page: str) -> str:
+    """The page with its tables as they are now; each lies between ``<!-- NAME -->`` and ``<!-- end -->``."""
+    tables = {"amounts": rows(), "styles": styles(), "ablation": ablation(read_phones())}
+    for name, table in tables.items():
+        before, mark, rest = page.partition(f"<!-- {name} -->\n")
+        page = before + mark + table + "\n" + rest[rest.index("<!-- end -->") :]
+    return page
 
 
 def _nearest_frame(time_s: float, shift_s: float) -> float:
@@ -213,5 +243,15 @@ def _travel(said: Said, channel: str, start_s: float, end_s: float) -> float:
     return float(np.abs(np.diff(said.curves[channel][inside])).sum())
 
 
+def main() -> None:
+    """Print the ablation, or write the tables of the page."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", action="store_true", help="bring docs/passes.md up to date")
+    if parser.parse_args().write:
+        PAGE.write_text(fill(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    else:
+        print(ablation(read_phones()))
+
+
 if __name__ == "__main__":
-    print(table(read_phones()))
+    main()
