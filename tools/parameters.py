@@ -111,18 +111,9 @@ def _srgb_byte(linear: float) -> int:
 def _displacement(entry: Entry) -> str:
     """How far the point that moves most goes at each end, mm; nothing where none moves."""
     row = entry.first
-    told = [f"{mm:.1f}" for end in (row.low, row.high) if end != row.default and (mm := _moved_mm(entry, end)) >= 0.05]
+    ends = zip((row.low, row.high), row.reach_mm or (0.0, 0.0), strict=True)
+    told = [f"{mm:.1f}" for end, mm in ends if end != row.default and mm >= 0.05]
     return f" · {' and '.join(told)} mm" if told else ""
-
-
-def _moved_mm(entry: Entry, value: float) -> float:
-    moved = _points(entry, value) - _points(entry, entry.first.default)
-    return 1000.0 * float(np.sqrt((moved * moved).sum(axis=1).max()))
-
-
-def _points(entry: Entry, value: float) -> np.ndarray:
-    face = person()
-    return face.shape(face.neutral.replace(dict.fromkeys(entry.rows, value))).points
 
 
 # ------------------------------------------------------------------ the pictures

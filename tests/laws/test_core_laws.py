@@ -17,8 +17,8 @@ TOYS = {
     "sides, odd and colours": ParameterTable(
         (
             Parameter("jaw.rotation", 0, 20, 0, "deg"),
-            *both_sides("eyelid.opening", 0, 1, 0.7),
-            *both_sides("eye.turn", -40, 40, 0, unit="deg", odd=True),
+            *both_sides(Parameter("eyelid.opening", 0, 1, 0.7)),
+            *both_sides(Parameter("eye.turn", -40, 40, 0, unit="deg", odd=True)),
             Parameter("head.turn", -60, 60, 0, "deg", odd=True),
             *color("skin.color", (0.5, 0.3, 0.2)),
         ),

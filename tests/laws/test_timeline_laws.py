@@ -31,7 +31,7 @@ from mien.timeline import (
 TABLE = ParameterTable(
     (
         Parameter("jaw.rotation", 0, 20, 0, "deg"),
-        *both_sides("eyelid.opening", 0, 1, 0.7),
+        *both_sides(Parameter("eyelid.opening", 0, 1, 0.7)),
         Parameter("head.turn", -60, 60, 0, "deg", odd=True),
     ),
     aliases={"ELU": "eyelid.opening.left"},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,7 +25,8 @@ class Parameter:
     Left and right are the face's own. A name that ends in ``.left`` has a twin that ends in ``.right``; the name
     without either sets both. ``odd`` marks a quantity that changes its sign in the mirror (a turn to the left).
     ``spread`` is the standard deviation among people, 0 for what moves or what they do not differ in; ``usual`` is
-    their mean, None where that is the default.
+    their mean, None where that is the default. ``reach_mm`` tells how far the point that moves most goes at ``low``
+    and at ``high``, None where that was not measured.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Parameter:
     source: str = ""
     spread: float = 0.0
     usual: float | None = None
+    reach_mm: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if not self.low <= self.default <= self.high:
@@ -72,23 +74,9 @@ class Parameter:
         return f"it goes from {self.low:g} to {self.high:g}" + (f" {self.unit}" if self.unit else "")
 
 
-def both_sides(
-    name: str,
-    low: float,
-    high: float,
-    default: float = 0.0,
-    unit: str = "",
-    group: str = "",
-    odd: bool = False,
-    doc: str = "",
-    source: str = "",
-    spread: float = 0.0,
-) -> tuple[Parameter, Parameter]:
-    """The rows ``name.left`` and ``name.right``; ``{side}`` in the doc becomes the side."""
-    left, right = (
-        Parameter(name + side, low, high, default, unit, group, odd, doc.replace("{side}", side[1:]), source, spread)
-        for side in SIDES
-    )
+def both_sides(row: Parameter) -> tuple[Parameter, Parameter]:
+    """The rows ``name.left`` and ``name.right`` of a row; ``{side}`` in its doc becomes the side."""
+    left, right = (replace(row, name=row.name + side, doc=row.doc.replace("{side}", side[1:])) for side in SIDES)
     return left, right
 
 

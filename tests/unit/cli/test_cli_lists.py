@@ -29,7 +29,7 @@ def test_every_parameter_with_its_range(capfd: pytest.CaptureFixture[str]) -> No
     lines = output(capfd, "params", "head").splitlines()
     assert [line.split()[0] for line in lines[1:]] == list(table.names)
     jaw = next(line for line in lines if line.startswith("jaw.rotation"))
-    assert jaw.split()[1:5] == ["0", "0", "20", "deg"]
+    assert jaw.split()[1:7] == ["0", "0", "20", "deg", "0.0", "38.2"]
 
 
 def test_parameters_as_json_have_the_documented_shape(capfd: pytest.CaptureFixture[str]) -> None:
@@ -38,8 +38,9 @@ def test_parameters_as_json_have_the_documented_shape(capfd: pytest.CaptureFixtu
     assert data["face"] == "head"
     assert len(data["parameters"]) == len(load_face("head").parameters)
     row = next(row for row in data["parameters"] if row["name"] == "eyelid.opening.left")
-    assert list(row) == ["name", "default", "low", "high", "unit", "group", "mirror", "doc", "source"]
+    assert list(row) == ["name", "default", "low", "high", "unit", "group", "mirror", "doc", "source", "reach_mm"]
     assert (row["low"], row["high"], row["mirror"]) == (0, 1, "eyelid.opening.right")
+    assert row["reach_mm"] == [15.4, 4.1]
 
 
 def test_presets(capfd: pytest.CaptureFixture[str]) -> None:

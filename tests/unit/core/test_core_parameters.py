@@ -16,7 +16,7 @@ def table_of(*rows, **aliases):
 def table():
     return table_of(
         Parameter("jaw.rotation", 0, 20, unit="deg", group="jaw"),
-        *both_sides("eyelid.opening", 0, 1, 0.7, group="eyes", doc="Opening of the {side} lid."),
+        *both_sides(Parameter("eyelid.opening", 0, 1, 0.7, group="eyes", doc="Opening of the {side} lid.")),
         Parameter("head.turn", -90, 90, unit="deg", group="head", odd=True),
         ELU="eyelid.opening.left",
     )
@@ -28,7 +28,7 @@ def test_a_row_outside_its_own_range_is_refused():
 
 
 def test_the_twin_of_a_side_is_the_other_side():
-    left, right = both_sides("eyelid.opening", 0, 1)
+    left, right = both_sides(Parameter("eyelid.opening", 0, 1))
     middle = Parameter("jaw.rotation", 0, 20)
     assert (left.mirror, right.mirror, middle.mirror) == ("eyelid.opening.right", "eyelid.opening.left", "jaw.rotation")
 

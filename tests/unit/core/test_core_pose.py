@@ -8,7 +8,7 @@ from mien.core import MienError, Parameter, ParameterTable, Pose, RangeError, Un
 TABLE = ParameterTable(
     (
         Parameter("jaw.rotation", 0, 20),
-        *both_sides("eyelid.opening", 0, 1, 0.7),
+        *both_sides(Parameter("eyelid.opening", 0, 1, 0.7)),
         Parameter("head.turn", -90, 90, odd=True),
     ),
     {"ELU": "eyelid.opening.left"},

@@ -4,7 +4,11 @@ from mien.core import LoadError, Parameter, ParameterTable, UnknownNameError, bo
 from mien.timeline import Layer, Timeline, Track, format_csv, parse_csv
 
 TABLE = ParameterTable(
-    (Parameter("jaw.rotation", 0, 20, 0, "deg"), Parameter("mouth.width", 0.5, 1.5, 1), *both_sides("lid", 0, 1))
+    (
+        Parameter("jaw.rotation", 0, 20, 0, "deg"),
+        Parameter("mouth.width", 0.5, 1.5, 1),
+        *both_sides(Parameter("lid", 0, 1)),
+    )
 )
 
 

@@ -10,7 +10,7 @@ from mien.timeline import BLENDS, Layer, Timeline, Track
 TABLE = ParameterTable(
     (
         Parameter("jaw.rotation", 0, 20, 0, "deg"),
-        *both_sides("eyelid.opening", 0, 1, 0.75),
+        *both_sides(Parameter("eyelid.opening", 0, 1, 0.75)),
         Parameter("mouth.width", 0.5, 1.5, 1),
         Parameter("head.turn", -60, 60, 0, "deg", odd=True),
     ),

@@ -19,8 +19,8 @@ TABLE = ParameterTable(
     (
         Parameter("jaw.rotation", 0, 20, 0, "deg"),
         Parameter("mouth.width", 0.5, 1.5, 1),
-        *both_sides("eyelid.opening", 0, 1, 0.7),
-        *both_sides("eyebrow.arch", 0, 1, 0.7),
+        *both_sides(Parameter("eyelid.opening", 0, 1, 0.7)),
+        *both_sides(Parameter("eyebrow.arch", 0, 1, 0.7)),
     ),
     aliases={"ELU": "eyelid.opening.left"},
 )

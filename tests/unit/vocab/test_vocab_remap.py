@@ -86,7 +86,7 @@ def test_reached_parameters(remap: Remap) -> None:
 
 def test_check_names_the_missing_parameter(remap: Remap) -> None:
     known = ParameterTable(tuple(Parameter(name, 0, 1) for name in ("jaw", "round", "spread", "blink", "brow")))
-    played = ParameterTable((Parameter("jaw.rotation", 0, 20), *both_sides("lid", 0, 1)))
+    played = ParameterTable((Parameter("jaw.rotation", 0, 20), *both_sides(Parameter("lid", 0, 1))))
     with pytest.raises(UnknownNameError, match=r"mouth\.width"):
         remap.check(known, played)
     remap.check(known, ParameterTable((*played.rows, Parameter("mouth.width", 0, 2))))

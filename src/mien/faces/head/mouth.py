@@ -23,15 +23,25 @@ from .angles import soft_step
 from .falloff import bell, ellipse, own_side
 from .measured import Archive, Floats, Measured
 from .moves import Move
+from .regions import weigh_region
 from .units import PARKE_UNIT_M as UNIT
 
 CENTRE = (0.0, -0.067)
-CORNER_X = 0.023
+CORNER, CORNER_X = 5, 0.023
 ARCH_CURVE = 21.0
-"""How the lips bend around the teeth: they lie back by 21 x^2 metres at x metres from the middle."""
+"""How the lips bend around the teeth: they lie back by 21 x^2 metres at x metres from the middle, up to the corner;
+from there on the cheek goes straight on."""
 
 SMILE = (("mouthSmile", 1.0), ("cheekSquint", 0.32), ("mouthDimple", 0.08))
 """Measured expressions that make Parke's second set of mouth points, the smile at ``mouth.expression`` 0."""
+
+AROUND_M, AROUND_REACH = (0.027, 0.022), 2.6
+NOSE_STAYS = 0.6
+"""What the mouth's width takes along: fully within an ellipse, less and less up to 2.6 times its radii; and how much
+less of the nose, which is within reach."""
+
+GIVE_M = 0.005
+"""A smile that draws a corner so far outwards leaves half of what else would draw it; both would tear the cheek."""
 
 CORNER_RINGS = {"mh": 0.7, "m1": 1.0, "mb": 0.8}
 CORNER_STATIONS = {3: 0.5, 4: 1.0, 6: -1.0, 7: -0.5}
@@ -102,6 +112,7 @@ class MouthRegions:
     Attributes:
         around: of the width: the mouth and what is around it.
         lips: of the offset from the teeth.
+        ends: vertices at the left and the right corner.
         corner: of the left and the right corner's moves.
         corner_lips: of the left and the right corner's width: up is positive.
         upper: of the upper lip's raise.
@@ -112,6 +123,7 @@ class MouthRegions:
 
     around: Floats
     lips: Floats
+    ends: Ints
     corner: tuple[Floats, Floats]
     corner_lips: tuple[Floats, Floats]
     upper: Floats
@@ -138,13 +150,15 @@ def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
     """The weights, from the neutral points."""
     points = measured.points
     taper = np.maximum(1.0 - 0.6 * (points[:, 0] / CORNER_X) ** 2, 0.35)
+    nose = weigh_region("end of the nose", points)
     left, right = (
         bell(points, (side * CORNER_X, CENTRE[1]), (0.0135, 0.0125)) * own_side(points, side, 0.012) for side in (1, -1)
     )
     left_red, right_red = (_by_ring(archive, CORNER_RINGS, CORNER_STATIONS, (side,)) for side in (0, 1))
     return MouthRegions(
-        around=ellipse(points, CENTRE, (0.027, 0.018), 2.4),
+        around=ellipse(points, CENTRE, AROUND_M, AROUND_REACH) * (1.0 - NOSE_STAYS * nose),
         lips=ellipse(points, CENTRE, (0.026, 0.0105), 1.8) * taper,
+        ends=np.array([_vertex(archive, "m0", CORNER, side) for side in (0, 1)]),
         corner=(left, right),
         corner_lips=(left_red, right_red),
         upper=_by_ring(archive, UPPER_RINGS, UPPER_STATIONS),
@@ -196,30 +210,47 @@ def smile_moves(measured: Measured) -> list[Move]:
 
 
 @kernel()
-def move_lips(points, rows, regions, width, offset, upper_lip, corners):
+def arch_back(x):
+    """How far back, m, lips and cheeks lie x metres from the middle."""
+    near = min(abs(x), CORNER_X)
+    return ARCH_CURVE * near * (2.0 * abs(x) - near)
+
+
+@kernel()
+def give_of(x):
+    """How much a corner of the mouth, x metres from the middle, still gives to what else draws it outwards."""
+    return 1.0 / (1.0 + max(x - CORNER_X, 0.0) / GIVE_M)
+
+
+@kernel()
+def move_lips(points, rows, regions, ends, width, offset, upper_lip, corners):
     """Scale and translate the lips of the skin (V, 3) m, before the jaw turns.
 
     Args:
         points: changed.
         rows: (R,) vertices of the mouth.
         regions: (R, 7) their weights: width, offset, upper lip, left and right corner, red of either.
+        ends: vertices at the left and the right corner.
         width: factor, 1 at rest.
         offset: forward, off the teeth, in Parke's units like all that follow.
         upper_lip: up.
         corners: (8,) left and right: outwards, up, forward, thickness.
     """
+    given = give_of(points[ends[0], 0]), give_of(-points[ends[1], 0])
     for n in range(len(rows)):
         v = rows[n]
         x, y, z = points[v, 0], points[v, 1], points[v, 2]
         around = regions[n, 0]
-        wide = x * (1.0 + (width - 1.0) * around)
-        z -= ARCH_CURVE * (wide * wide - x * x) * around
+        give = given[0 if x > 0.0 else 1]
+        wide = x * (1.0 + ((width - 1.0) * give if width > 1.0 else width - 1.0) * around)
+        z -= (arch_back(wide) - arch_back(x)) * around
         z += offset * UNIT * regions[n, 1]
         y += upper_lip * UNIT * regions[n, 2]
         x = wide
         for side in range(2):
             sign, corner = 1.0 - 2.0 * side, regions[n, 3 + side]
-            x += sign * corners[side] * UNIT * corner
+            outwards = corners[side] * given[side] if corners[side] > 0.0 else corners[side]
+            x += sign * outwards * UNIT * corner
             y += corners[2 + side] * UNIT * corner
             z += corners[4 + side] * UNIT * corner
             y += 0.5 * corners[6 + side] * UNIT * regions[n, 5 + side]

@@ -141,7 +141,7 @@ class Poser:
         self._constants = (
             np.array([*starts, layout.span["tongue"].stop], dtype=np.int64),
             *(np.concatenate([eyes.balls, [(*PIVOT, 0.0)]]), eyes.kappa_deg),
-            *(mouth.rows, mouth.moving, mouth.tuck[mouth.rows]),
+            *(mouth.rows, mouth.moving, mouth.ends, mouth.tuck[mouth.rows]),
             *(jaw.axis, jaw.share, jaw.open_angle_deg, jaw.residual),
             *(measured.morphs["mouthClose"], contacts.numbers, contacts.shares, contacts.gaps),
             *(mouth.over_teeth, tongue.front),

@@ -98,7 +98,8 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves, touchi
         c: a row of controls.
         skin: changed.
         gaze: (2, 3) directions of the eyes.
-        lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), and their shares in ``tuck_lip`` (R,).
+        lips: (R,) vertices of the mouth, their weights in ``move_lips`` (R, 7), its two ends, and the shares in
+            ``tuck_lip`` (R,).
         jaw: axis, share, angle of the measured open mouth, residual: of ``open_jaw``.
         contacts: bridge of ``bridge_lips``; numbers, shares, gaps of ``close_lips``; over_teeth and edge of
             ``stay_off_teeth``.
@@ -107,12 +108,12 @@ def deform_skin(c, skin, gaze, lips, jaw, contacts, lids, scratch, waves, touchi
         waves: (2, S), overwritten.
         touching: of ``close_lips``, filled.
     """
-    rows, regions, tuck_share = lips
+    rows, regions, ends, tuck_share = lips
     axis, share, open_angle_deg, residual = jaw
     bridge, numbers, shares, gaps, over_teeth, front = contacts
     lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening = lids
     before_jaw, moves = scratch[0], scratch[1]
-    move_lips(skin, rows, regions, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
+    move_lips(skin, rows, regions, ends, c[WIDTH], c[OFFSET], c[UPPER_LIP], c[CORNERS : CORNERS + 8])
     if c[TUCK] != 0.0:
         copy_rows(skin, rows, before_jaw)
     open_jaw(skin, c[JAW], axis, share, open_angle_deg, residual, waves)
@@ -283,7 +284,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
 # fmt: off
 @kernel(
     "f8[:,:], i8[:], f8[:,:], f8[:], "  # who and how
-    "i8[:], f8[:,:], f8[:], "  # lips
+    "i8[:], f8[:,:], i8[:], f8[:], "  # lips
     "f8[:], f8[:], f8, f8[:,:], "  # jaw
     "f8[:,:], i8[:,:,:], f8[:], f8[:,:], i8[:], f8[:], "  # contacts
     "i8[:,:], f8[:,:], f8[:,:], i8[:,:,:], f8[:,:], f8, f8[:], "  # lids
@@ -306,7 +307,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
 )
 def pose_heads(
     controls, parts, balls, kappa_deg,
-    lips, lip_regions, tuck_share,
+    lips, lip_regions, mouth_ends, tuck_share,
     jaw_axis, jaw_share, open_angle_deg, jaw_residual,
     bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front,
     lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening, clear_of_balls,
@@ -333,7 +334,7 @@ def pose_heads(
         controls: (N, D) values of ``CONTROLS``.
         parts: first vertex of each of ``PARTS``.
         balls: (3, 4) m, centre and radius of the eyes, and the neck's pivot; kappa_deg: of ``aim_eyes``.
-        lips: lip_regions, tuck_share, jaw, contacts, lids: of ``deform_skin``.
+        lips: lip_regions, mouth_ends, tuck_share, jaw, contacts, lids: of ``deform_skin``.
         source: (K,) vertex of the skin of each of the first K vertices.
         steps: circle, grid, corners: of ``place_eyes``.
         lash_index: and what follows: of ``place_hairs``.
@@ -362,7 +363,8 @@ def pose_heads(
         jaw = jaw_axis, jaw_share, open_angle_deg, jaw_residual
         contacts = bridge, contact_numbers, contact_shares, contact_gaps, over_teeth, teeth_front
         lids = lid_numbers, lid_polar, lid_rest, lid_pairs, lid_gaps, rest_opening
-        deform_skin(c, skin, gaze, (lips, lip_regions, tuck_share), jaw, contacts, lids, scratch, waves, touching)
+        mouth = lips, lip_regions, mouth_ends, tuck_share
+        deform_skin(c, skin, gaze, mouth, jaw, contacts, lids, scratch, waves, touching)
         upper, lower, red = contact_numbers[0, 0, 0], contact_numbers[0, 1, 0], contact_numbers[0, 1, RED]
         edges = skin[upper, 1], max(skin[lower, 1], skin[red, 1]), skin[lower, 2], skin[red, 2]
         shape_points(skin, shape, skin_starts, skin_rows, skin_weights)

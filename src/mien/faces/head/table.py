@@ -40,7 +40,10 @@ PLACES = (
 
 
 def face_rows() -> tuple[dict[str, str], ...]:
-    """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source."""
+    """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source.
+
+    ``low_mm`` and ``high_mm`` are the largest displacements at both ends.
+    """
     return shipped_rows("parameters")
 
 
@@ -48,8 +51,8 @@ def conformation_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/conformation.csv``, in the order in which they act.
 
     They have what the others have but ``morph``, and the mechanism: kind (blend, field, scale, move, lids, turn, brow
-    or head), axis, region and origin; the largest displacement at both ends, mm; and the spread among people, by
-    least squares on the fifty identities of ICT-FaceKit Light (chosen for brows and teeth, which these do not have).
+    or head), axis, region and origin; and the spread among people, by least squares on the fifty identities of
+    ICT-FaceKit Light (chosen for brows and teeth, which these do not have).
     """
     return shipped_rows("conformation")
 
@@ -71,12 +74,15 @@ def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
 def _face(cells_of: tuple[dict[str, str], ...]) -> list[Parameter]:
     rows: list[Parameter] = []
     for row in cells_of:
-        low, high, default = (float(row[key]) for key in ("low", "high", "default"))
-        cells = (
-            *(low, high, default, row["unit"], row["group"], row["mirror"] == "odd", row["doc"], row["source"]),
-            float(row.get("spread") or 0.0),
+        low, high, default, low_mm, high_mm = (
+            float(row[key]) for key in ("low", "high", "default", "low_mm", "high_mm")
         )
-        rows += both_sides(row["name"], *cells) if row["sides"] else (Parameter(row["name"], *cells),)
+        parameter = Parameter(
+            *(row["name"], low, high, default, row["unit"], row["group"], row["mirror"] == "odd"),
+            *(row["doc"], row["source"], float(row.get("spread") or 0.0)),
+            reach_mm=(low_mm, high_mm),
+        )
+        rows += both_sides(parameter) if row["sides"] else (parameter,)
     return rows
 
 
