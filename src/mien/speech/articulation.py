@@ -74,20 +74,25 @@ class Articulation:
     )
     brief: float = amount(
         "stops, nasals and labials under 100 ms leave the jaw to the vowels beside them",
-        measure="swings of the jaw a second",
+        measure="how far t, d, n, k, g under 100 ms leave the jaw open between vowels",
         source="Edwards et al. 2016, section 4",
+        high=1.0,
     )
     pauses: float = amount(
         "the mouth stays open in pauses up to 120 ms and shuts partly in those up to 350 ms",
-        measure="movement in pauses up to 350 ms",
+        measure="how far the jaw is open in the middle of pauses up to 350 ms",
         source="Edwards et al. 2016, section 4",
     )
     anticipation: float = amount(
         "lips begin lip-heavy sounds (oo oh w s z sh ch j) early",
-        measure="lead of rounding before its sound",
+        measure="how long before oo, oh and w the lips are half round",
         source="Daniloff and Moll 1968",
     )
-    lag: float = amount("the jaw comes 15 ms after the lips", measure="delay of the jaw", source="Gracco 1988")
+    lag: float = amount(
+        "the jaw comes 15 ms after the lips",
+        measure="how much later than the lower lip the jaw is fastest",
+        source="Gracco 1988",
+    )
     dominance: float = amount(
         "phones blend into one another as far as they dominate; off, the mouth jumps from shape to shape",
         measure="greatest speed of the jaw",
@@ -95,7 +100,7 @@ class Articulation:
     )
     rounding: float = amount(
         "lips stay round for a frame at 12 frames a second",
-        measure="roundings that a film at 12 frames a second misses",
+        measure="least roundness in the frame nearest to the middle of oo, oh and w, at 12 frames a second",
         source="Parke 1974, section 4.3",
         high=1.0,
     )

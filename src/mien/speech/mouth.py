@@ -13,7 +13,7 @@ from mien.timeline import Track
 from .articulation import USUAL, Articulation
 from .mouth_blend import blend
 from .mouth_gestures import Gestures, gestures
-from .mouth_holds import Hold, evaluate, find_holds
+from .mouth_holds import NEAR_S, Hold, evaluate, find_holds, nearness
 from .mouth_keys import reduce_keys
 from .mouth_passes import soften_pauses, split_diphthongs, tidy
 from .mouth_table import BLENDED, GROUPS, HELD, Floats
@@ -24,11 +24,14 @@ MOUTH_CHANNELS: tuple[str, ...] = (*HELD, *BLENDED)
 STEP_S = 0.01
 CHUNK_S = 30.0
 
-SEALED = {"upper_lip": 1.0, "lower_lip": 1.0, "spread": 0.5, "tongue_out": 1.0, "tuck": 1.0, "jaw": 0.35}
+SEALED = {"upper_lip": 1.0, "lower_lip": 1.0, "spread": 0.5, "tongue_out": 1.0, "tuck": 1.0}
 """Part of a channel that is taken away while the lips are pressed together."""
 
-TUCKED = {"lower_lip": 1.0, "jaw": 0.3, "tongue_out": 1.0}
+TUCKED = {"lower_lip": 1.0, "tongue_out": 1.0}
 """Part of a channel that is taken away while the lower lip is under the teeth."""
+
+RAISED = {"closure": 0.35, "tuck": 0.3}
+"""Part of the jaw's opening that is taken away where the lips are held."""
 
 
 def articulate(phones: Iterable[Cue], style: Articulation = USUAL) -> dict[str, Track]:
@@ -70,6 +73,8 @@ def sample(sounds: Gestures, holds: Sequence[Hold], times_s: Floats, style: Arti
     for group, channels in GROUPS.items():
         amount = style.strength * getattr(style, group)
         curves |= {channel: reach(blended[:, BLENDED.index(channel)], amount) for channel in channels}
+    for channel, taken in RAISED.items():
+        curves["jaw"] = curves["jaw"] * (1.0 - taken * nearness(holds, channel, times_s))
     return give_way(give_way(curves, "closure", SEALED), "tuck", TUCKED)
 
 
@@ -88,8 +93,8 @@ def give_way(curves: Mapping[str, Floats], ruler: str, taken: Mapping[str, float
 
 def _chunks(holds: Sequence[Hold], end_s: float) -> Iterator[tuple[Floats, Sequence[Hold]]]:
     """Sample times of one piece after the other, sharing their ends, with the holds that reach into each."""
-    starts = np.array([hold.start_s - hold.rise_s for hold in holds])
-    ends = np.array([hold.end_s + hold.fall_s for hold in holds])
+    starts = np.array([hold.start_s - NEAR_S for hold in holds])
+    ends = np.array([hold.end_s + NEAR_S for hold in holds])
     count = max(1, math.ceil(end_s / CHUNK_S))
     for piece in range(count):
         low, high = piece * CHUNK_S, min((piece + 1) * CHUNK_S, end_s)

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mien.core import Cue
+from mien.core import Cue, exact
 
 from .mouth_table import Floats, PhoneTarget, phone_table
 
@@ -32,6 +32,9 @@ They meet at speed, so that they are not nearly shut for longer than they are sh
 Source: Löfqvist and Gracco 1997, Lip and jaw kinematics in bilabial stop consonant production, Journal of Speech,
 Language, and Hearing Research 40: lips move fast when they touch. The lengths are our choice.
 """
+
+NEAR_S = 0.08
+"""The jaw comes up for a hold, and goes down after it, in this time: it cannot pop as the lips do."""
 
 CLOSE_SHARE = 0.5
 LEAST_CLOSE_S = 0.036
@@ -192,6 +195,18 @@ def evaluate(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
             fall = np.clip(((hold.end_s + hold.fall_s) - t) / hold.fall_s, 0.0, 1.0)
             shape = np.where(t < hold.start_s, rise * rise, np.where(t > hold.end_s, fall * fall, 1.0))
             value[low : high + 1] = np.maximum(value[low : high + 1], shape)
+    return value
+
+
+def nearness(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
+    """(N,) how near a hold is at sorted times: 1 on it, smoothly down to 0 where it is ``NEAR_S`` away."""
+    value = np.zeros(len(times_s))
+    for hold in holds:
+        if hold.channel == channel:
+            low, high = np.searchsorted(times_s, [hold.start_s - NEAR_S, hold.end_s + NEAR_S])
+            t = times_s[low : high + 1]
+            away = np.maximum(0.0, np.maximum(hold.start_s - t, t - hold.end_s))
+            value[low : high + 1] = np.maximum(value[low : high + 1], exact.smoothstep(1.0 - away / NEAR_S))
     return value
 
 
