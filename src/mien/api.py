@@ -311,6 +311,26 @@ def speak(text: str, voice: str | None = None, *, report: Report | None = None) 
     return speak(text, voice, report=report)
 
 
+def hear(path: Path | str, text: str | None = None, *, report: Report | None = None) -> Speech:
+    """What is said in a recording or film: its sound, words and phones with their times.
+
+    ``mien.speech.hear`` tells besides how sure each word is, and where text and sound differ.
+
+    Args:
+        path: WAV, MP3, OGG, FLAC, M4A, a film.
+        text: what is said; without it the words are recognised, less surely.
+        report: told (seconds done, seconds in all, what is being done).
+
+    Raises:
+        LoadError: the file holds no sound that can be read.
+        MienError: no word is heard, or another text than the given one.
+    """
+    from .formats.sound_files import read_sound
+    from .speech import hear
+
+    return hear(read_sound(path), text, report=report).speech
+
+
 def perform(
     speech: Speech,
     face: Face | str = DEFAULT_FACE,

@@ -9,6 +9,7 @@ from .parameters import Parameter, ParameterTable, Pose, both_sides, color
 from .rig import Joint, Motion, Rig, Rigged
 from .scene import Light, Scene, fill_rows
 from .sound import Sound
+from .sound_store import SoundStore
 from .subdivision import subdivide
 from .variety import mix_people, random_person
 
@@ -35,6 +36,7 @@ __all__ = [
     "Rigged",
     "Scene",
     "Sound",
+    "SoundStore",
     "Topology",
     "UnknownNameError",
     "both_sides",

@@ -2,6 +2,7 @@
 
 from mien.core import SILENCE
 
+from .hearing import Heard, hear
 from .phones import CONSONANTS, PHONES, STOPS, VOWELS, stress_of, strip_stress
 from .speaking import speak
 from .voice import Speech, Utterance, Voice, find_voice, voices
@@ -12,10 +13,12 @@ __all__ = [
     "SILENCE",
     "STOPS",
     "VOWELS",
+    "Heard",
     "Speech",
     "Utterance",
     "Voice",
     "find_voice",
+    "hear",
     "speak",
     "stress_of",
     "strip_stress",

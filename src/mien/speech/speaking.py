@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import SILENCE, Cue, MienError, Sound
+from mien.core import SILENCE, Cue, MienError, SoundStore
 
 from .phones import check_symbol
 from .voice import Speech, Utterance, Voice, find_voice
@@ -25,9 +23,6 @@ TAIL_S = 0.35
 SHORTEST_TAIL_S = 0.05
 SHORTEST_HEAD_S = 0.03
 """Silence of an utterance's own that is never cut off, seconds: it holds the last of the breath and the first."""
-
-LONGEST_IN_MEMORY_S = 120.0
-"""Sound longer than this goes to a file, seconds."""
 
 Report = Callable[[int, int, str], None]
 
@@ -50,7 +45,7 @@ def speak(
     if not text.strip():
         raise MienError("the text is empty — write what is to be said, like 'Hello there.'")
     speaker = find_voice(voice) if voice is None or isinstance(voice, str) else voice
-    store = _Store(speaker.rate_hz, folder)
+    store = SoundStore(speaker.rate_hz, folder)
     line = _Line(speaker.name, speaker.rate_hz)
     skipped: dict[str, None] = {}
     try:
@@ -67,7 +62,7 @@ def speak(
             report(len(text), len(text), "speaking")
         return Speech(
             text,
-            Sound(store.samples(), speaker.rate_hz),
+            store.sound(),
             tuple(line.words),
             line.phones(),
             tuple(skipped),
@@ -157,49 +152,3 @@ class _Line:
         if symbol == SILENCE and self._phones and self._phones[-1][1] == SILENCE:
             return
         self._phones.append((start, symbol))
-
-
-class _Store:
-    """Samples in memory, and in a file without a name once there are many."""
-
-    def __init__(self, rate_hz: int, folder: Path | str | None) -> None:
-        self._parts: list[NDArray[np.int16]] = []
-        self._count = 0
-        self._most = round(LONGEST_IN_MEMORY_S * rate_hz)
-        self._folder = folder
-        self._file: tempfile._TemporaryFileWrapper[bytes] | None = None
-
-    def write(self, samples: NDArray[np.int16]) -> None:
-        """Samples appended."""
-        self._parts.append(samples)
-        self._count += len(samples)
-        if self._count > self._most:
-            self._flush()
-
-    def samples(self) -> NDArray[np.int16]:
-        """All samples, (N,); those of a file are mapped, and the file goes when the map does."""
-        if self._file is None:
-            return np.concatenate([np.zeros(0, np.int16), *self._parts])
-        self._flush()
-        return np.memmap(self._file, dtype=np.int16, mode="r", shape=(self._count,))
-
-    def close(self) -> None:
-        """The file's name given back; a map of it stays good."""
-        if self._file is not None:
-            with suppress(OSError):  # what could not be written was told when it was written
-                self._file.close()
-
-    def _flush(self) -> None:
-        try:
-            if self._file is None:
-                self._file = tempfile.NamedTemporaryFile(prefix="mien-", suffix=".pcm", dir=self._folder)  # noqa: SIM115
-            for part in self._parts:
-                self._file.write(part.tobytes())
-            self._file.flush()
-        except OSError as error:
-            place = self._folder or tempfile.gettempdir()
-            raise MienError(
-                f"{place}: cannot keep {2 * self._count >> 20} MB of speech here: {error.strerror} — "
-                "set TMPDIR to a folder with room"
-            ) from None
-        self._parts.clear()

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from mien.core import SILENCE, MienError
 
-from .text import Passage, match_words, prepare_word, split_passages, split_words, trim_word
+from .text import Passage, SpokenWord, match_words, prepare_word, split_passages, split_words, trim_word
 from .voice import Utterance
 from .voice_hibari_model import HIBARI_VERSION, check_version, open_model
 from .voice_times import PAUSE_MARKS, Letter, fit_pauses, time_phones, time_words, to_cues
@@ -76,6 +76,15 @@ class HibariVoice:
 
 
 @dataclass(frozen=True)
+class Wording:
+    """The words of a passage as written, those that are said for them, and for each of these whose it is."""
+
+    written: tuple[SpokenWord, ...]
+    spoken: tuple[str, ...]
+    owners: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class _Reading:
     """Letters of the model's alphabet for a passage, which word each belongs to, and what has no letters."""
 
@@ -123,13 +132,10 @@ class Engine:
 
     def read(self, passage: Passage) -> _Reading:
         """How a passage is pronounced."""
-        prepared = [prepare_word(word, self.sayable) for word in split_words(passage.text)]
+        wording = self.word(passage)
+        prepared, rewritten, places = wording.written, wording.spoken, wording.owners
         skipped = [run for word in prepared for run in word.skipped]
-        said = [(place, part) for place, word in enumerate(prepared) for part in word.spoken]
-        owners = [place for place, _ in said]
-        rewritten = self.normalize(_tame(" ".join(part for _, part in said), self.knows)).split()
-        places = [owners[place] for place in match_words([part for _, part in said], rewritten)] if said else []
-        readings = self._pronounce_words(rewritten)
+        readings = self.pronounce_words(rewritten)
         letters, letter_owners, heard = "", [], set[int]()
         for owner, reading in zip(places, readings, strict=True):
             kept = "".join(letter for letter in reading if letter in self.numbers)
@@ -149,7 +155,16 @@ class Engine:
             letters, tuple(letter_owners), tuple(trim_word(word.written) for word in prepared), tuple(skipped)
         )
 
-    def _pronounce_words(self, words: Sequence[str]) -> list[str]:
+    def word(self, passage: Passage) -> Wording:
+        """The words that are said for a passage: numbers, signs and abbreviations in full."""
+        prepared = [prepare_word(word, self.sayable) for word in split_words(passage.text)]
+        said = [(place, part) for place, word in enumerate(prepared) for part in word.spoken]
+        owners = [place for place, _ in said]
+        rewritten = self.normalize(_tame(" ".join(part for _, part in said), self.knows)).split()
+        places = [owners[place] for place in match_words([part for _, part in said], rewritten)] if said else []
+        return Wording(tuple(prepared), tuple(rewritten), tuple(places))
+
+    def pronounce_words(self, words: Sequence[str]) -> list[str]:
         """Letters of each word, read in context; where hibari stumbles over them together, each word alone."""
         # hibari has no error of its own: odd numbers and marks end in whatever its tables raise.
         stumbles = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError, StopIteration, RuntimeError)

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mien.core import Cue, MienError, UnknownNameError
-from mien.speech import Speech, Utterance, Voice, find_voice, speak, speaking, voice, voices
+from mien.core import Cue, MienError, UnknownNameError, sound_store
+from mien.speech import Speech, Utterance, Voice, find_voice, speak, voice, voices
 from mien.speech.speaking import LEAD_S, TAIL_S
 
 RATE = 1000
@@ -105,7 +105,7 @@ def test_progress_counts_characters():
 
 def test_long_sound_lives_in_a_file_that_goes_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     short = speak("a", Fake((hum(),) * 20))
-    monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
+    monkeypatch.setattr(sound_store, "LONGEST_IN_MEMORY_S", 1.0)
     long = speak("a", Fake((hum(),) * 20), folder=tmp_path)
     assert isinstance(long.sound.samples, np.memmap)
     assert not isinstance(short.sound.samples, np.memmap)
@@ -117,13 +117,13 @@ def test_long_sound_lives_in_a_file_that_goes_with_it(tmp_path: Path, monkeypatc
 
 
 def test_no_room_for_long_sound_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
-    with pytest.raises(MienError, match=r"cannot keep .* MB of speech here: No such file"):
+    monkeypatch.setattr(sound_store, "LONGEST_IN_MEMORY_S", 1.0)
+    with pytest.raises(MienError, match=r"cannot keep .* MB of sound here: No such file"):
         speak("a", Fake((hum(),) * 20), folder=tmp_path / "gone")
 
 
 def test_a_full_disk_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
+    monkeypatch.setattr(sound_store, "LONGEST_IN_MEMORY_S", 1.0)
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
     try:
@@ -135,7 +135,7 @@ def test_a_full_disk_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
 
 def test_an_interrupted_speech_leaves_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(speaking, "LONGEST_IN_MEMORY_S", 1.0)
+    monkeypatch.setattr(sound_store, "LONGEST_IN_MEMORY_S", 1.0)
 
     def interrupt(done: int, total: int, what: str) -> None:
         if list(tmp_path.iterdir()):

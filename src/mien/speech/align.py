@@ -1,0 +1,186 @@
+"""Words and phones found in sound by PocketSphinx, American English: aligned with a text, or recognised without one.
+
+Its model, dictionary and language model lie in its wheel (ADR 0015).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import MienError
+
+from .hearing_sound import FRAME_S
+
+FRAME_CENTRE_S = 0.008
+"""From the time of a frame's number to the boundary before it.
+
+A frame is the sound of 25.6 ms, so frames 0 and 1 meet at 12.8 - 5 = 7.8 ms. Measured: ADR 0015.
+"""
+
+SEARCH: Mapping[str, Any] = {
+    "loglevel": "FATAL",
+    "bestpath": False,  # with it the pass that finds the phones fails now and then
+    "topn": 2,
+}
+"""Options of every search. Only the two nearest densities are added up: a fifth less work, much the same boundaries."""
+
+ALIGNMENT: Mapping[str, Any] = {"lm": None, "beam": 1e-120, "pbeam": 1e-120, "wbeam": 1e-80}
+"""Options of the search for given words: nothing is given up, which in a chain of words costs little."""
+
+RECOGNITION: Mapping[str, Any] = {"fwdflat": False, "maxhmmpf": 3000}
+"""Options of the search without a text: one pass, and no more than so many models at a time."""
+
+_VARIANT = re.compile(r"\(\d+\)$")
+_FILLERS = frozenset(["<s>", "</s>", "<sil>", "[NOISE]", "[SPEECH]", "(NULL)"])
+
+
+@dataclass(frozen=True)
+class FoundPhone:
+    """A phone without stress from one time to another, seconds from the beginning of the samples."""
+
+    symbol: str
+    start_s: float
+    end_s: float
+
+
+@dataclass(frozen=True)
+class FoundWord:
+    """A word that was found.
+
+    Attributes:
+        spelling: in the dictionary.
+        phones: in order, without holes.
+        score: how much worse than the best of all sounds it fits, a hundredth of a second on average; 0 is perfect.
+    """
+
+    spelling: str
+    phones: tuple[FoundPhone, ...]
+    score: float
+
+    @property
+    def start_s(self) -> float:
+        """Where it begins, seconds."""
+        return self.phones[0].start_s
+
+    @property
+    def end_s(self) -> float:
+        """Where it ends, seconds."""
+        return self.phones[-1].end_s
+
+    def later(self, by_s: float) -> FoundWord:
+        """The same word that many seconds later."""
+        phones = (FoundPhone(phone.symbol, phone.start_s + by_s, phone.end_s + by_s) for phone in self.phones)
+        return FoundWord(self.spelling, tuple(phones), self.score)
+
+
+class Aligner:
+    """Finds given words in samples at ``HEARING_HZ``."""
+
+    def __init__(self) -> None:
+        self._decoder = _load(ALIGNMENT)
+
+    def lookup(self, spelling: str) -> tuple[str, ...] | None:
+        """Phones of a word; None for one that the dictionary does not have."""
+        return _lookup(self._decoder, spelling)
+
+    def learn(self, words: Mapping[str, Sequence[str]]) -> None:
+        """Words added to the dictionary, with their phones."""
+        for spelling, phones in words.items():
+            if self.lookup(spelling) is None:
+                self._decoder.add_word(spelling, " ".join(phones), False)
+
+    def align(
+        self, samples: NDArray[np.int16], words: Sequence[Sequence[str]], *, open_end: bool = False
+    ) -> list[FoundWord] | None:
+        """The words where they are heard; None when the samples do not hold them.
+
+        Args:
+            samples: (N,).
+            words: in order, each with the spellings that it may be heard as.
+            open_end: whether the samples may end after any of the words.
+        """
+        self._decoder.add_fsg("words", self._build_grammar(words, open_end))
+        self._decoder.activate_search("words")
+        return _search(self._decoder, samples)
+
+    def _build_grammar(self, words: Sequence[Sequence[str]], open_end: bool) -> Any:
+        """A chain of states, one more than words; the last is the end, to which every word leads where it is open.
+
+        A word leads there itself, because the second pass fails at transitions without one.
+        """
+        from pocketsphinx import FsgModel
+
+        end = len(words)
+        grammar = FsgModel("words", self._decoder.get_logmath(), 1.0, end + 1)
+        for place, spellings in enumerate(words):
+            for spelling in spellings:
+                number = grammar.word_id(spelling)
+                number = grammar.word_add(spelling) if number < 0 else number
+                for state in {place + 1, end} if open_end else {place + 1}:
+                    grammar.trans_add(place, state, 0, number)
+        grammar.set_start_state(0)
+        grammar.set_final_state(end)
+        return grammar
+
+
+class Recogniser:
+    """Finds the words in samples at ``HEARING_HZ`` without being told them."""
+
+    def __init__(self) -> None:
+        self._decoder = _load(RECOGNITION)
+
+    def recognise(self, samples: NDArray[np.int16]) -> list[FoundWord]:
+        """The words that are heard; none in noise, music or silence."""
+        self._decoder.activate_search()
+        return _search(self._decoder, samples) or []
+
+
+def _load(options: Mapping[str, Any]) -> Any:
+    try:
+        from pocketsphinx import Decoder
+    except ImportError:
+        raise MienError(
+            "sound cannot be listened to without pocketsphinx — try: pip install 'pocketsphinx>=5'"
+        ) from None
+    return Decoder(**{**SEARCH, **options})
+
+
+def _lookup(decoder: Any, spelling: str) -> tuple[str, ...] | None:
+    phones = decoder.lookup_word(spelling)
+    return tuple(phones.split()) if phones else None
+
+
+def _feed(decoder: Any, samples: NDArray[np.int16]) -> None:
+    decoder.start_utt()
+    decoder.process_raw(samples.astype("<i2").tobytes(), full_utt=True)
+    decoder.end_utt()
+
+
+def _search(decoder: Any, samples: NDArray[np.int16]) -> list[FoundWord] | None:
+    """The words that the decoder's search finds, with their phones; None when it finds nothing."""
+    _feed(decoder, samples)
+    if decoder.hyp() is None:
+        return None
+    # A second pass, over the words of the first; to ask it for a hypothesis would crash.
+    decoder.set_alignment()
+    _feed(decoder, samples)
+    found = []
+    for word in decoder.get_alignment().words():
+        if word.name in _FILLERS:
+            continue
+        phones = tuple(
+            FoundPhone(
+                phone.name,
+                phone.start * FRAME_S + FRAME_CENTRE_S,
+                (phone.start + phone.duration) * FRAME_S + FRAME_CENTRE_S,
+            )
+            for phone in word
+        )
+        found.append(FoundWord(_VARIANT.sub("", word.name), phones, -word.score / word.duration))
+    return found
