@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
     from .stages import Stages
 
+MESHES = ("obj", "glb")
+"""Formats that are no pictures."""
+
 
 def render(
     face: options.FaceName,
@@ -81,6 +84,10 @@ def render(
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
         stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")
+    if kind in MESHES:
+        pixels = {"--size": size, "--background": background, "--shading": shading, "--threads": threads}
+        if unused := [option for option, given in pixels.items() if given is not None]:
+            stages.say(f"{out}: a mesh has no pixels, so nothing is done about {', '.join(unused)}")
     what = _write(out, kind, sheet, subject, pose, scene, threads, stages)
     stages.say(f"{out}: {what}; done in {format_time(stages.elapsed_s)}")
 

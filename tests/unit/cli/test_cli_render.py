@@ -91,3 +91,10 @@ def test_mistakes_end_with_a_clear_message_and_no_file(
     assert main(["render", "head", *arguments]) == 2
     assert message in capsys.readouterr().err
     assert list(Path().iterdir()) == []
+
+
+def test_what_a_mesh_has_no_use_for_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["render", "head", "--subdivide", "0", "--size", "64", "--shading", "wire", "-o", "a.glb"]) == 0
+    assert "nothing is done about --size, --shading" in capsys.readouterr().err
+    assert main(["render", "head", "--subdivide", "0", "-o", "a.obj"]) == 0
+    assert "nothing is done" not in capsys.readouterr().err
