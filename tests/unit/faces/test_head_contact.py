@@ -76,12 +76,12 @@ def torn_lips(held, lower_at):
 
 def test_a_lip_that_was_left_behind_comes_forward_and_the_other_one_stays():
     upper, lower = torn_lips(1.0, (0.0, 0.0, 0.001))
-    np.testing.assert_allclose(upper[:, 2], 0.001 * np.array(list(mouth.CONTACT_RINGS.values())))
+    np.testing.assert_allclose(upper[:, 2], (0.001 - mouth.WHOLE_M) * np.array(list(mouth.CONTACT_RINGS.values())))
     np.testing.assert_allclose(lower[:, 2], 0.001)
 
 
 def test_inner_edges_of_torn_lips_reach_past_one_another_up_to_a_most():
-    for torn_m, lock_m in ((0.001, 0.0015), (0.010, mouth.LOCK_M)):
+    for torn_m, lock_m in ((0.0011, 0.0015), (0.010, mouth.LOCK_M)):
         upper, lower = torn_lips(1.0, (torn_m, 0.0, 0.0))
         reached = (lower - upper)[:, 1]
         assert reached[mouth.INNER] == pytest.approx(lock_m)

@@ -13,14 +13,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mien.compiling import kernel
 from mien.core.mesh import Ints, Points
 
 from .angles import soft_step
 from .conformation import LIDS
-from .measured import Floats, Lids
+from .measured import Bools, Floats, Lids
 from .vectors import length
 
 WAYS = 25
@@ -48,9 +47,6 @@ SAG = 0.2
 OVER_CHIN_M = 0.009
 """How high the lower gums stay above the end of the chin at least; at rest it is 31 mm."""
 
-UPPER_BELOW, LOWER_ABOVE = 0.6, 0.3
-"""Skin with less of the jaw's angle may meet the upper row, skin with more the lower one."""
-
 NEAREST_M = 0.0025
 """What stands nearer to the teeth at rest, such as the inner corner of the mouth, is left where it is."""
 
@@ -59,9 +55,6 @@ UNFELT_M = 0.003
 
 LOWEST_M, HIGHEST_M, BEHIND_M = -0.118, -0.044, 0.052
 """What of the resting skin may meet the teeth: between these heights, before this depth."""
-
-
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,12 +72,14 @@ class Before:
     edge: Bools
 
 
-def before_teeth(skin: Points, jaw_share: Floats, seen: Bools, edge: Ints, inside: Points, lower: Bools) -> Before:
+def before_teeth(
+    skin: Points, lips: tuple[Bools, Bools], seen: Bools, edge: Ints, inside: Points, lower: Bools
+) -> Before:
     """The skin that stands before the teeth.
 
     Args:
         skin: (S, 3) m, at rest.
-        jaw_share: (S,) of the jaw's angle: upper lip and lower lip meet their own teeth only.
+        lips: (S,) whether it is of the upper, and of the lower lip: they meet their own teeth only.
         seen: (S,) whether it is outside the mouth.
         edge: vertices where the lips meet.
         inside: (K, 3) m, teeth and gums.
@@ -93,7 +88,7 @@ def before_teeth(skin: Points, jaw_share: Floats, seen: Bools, edge: Ints, insid
     gaps = np.empty((len(skin), 2))
     measure_gaps(skin, inside, lower, np.empty((2, WAYS, 3)), gaps)
     near = seen & (skin[:, 1] > LOWEST_M) & (skin[:, 1] < HIGHEST_M) & (skin[:, 2] > BEHIND_M)
-    meets = np.stack([jaw_share < UPPER_BELOW, jaw_share > LOWER_ABOVE], axis=1) & near[:, None] & (gaps > NEAREST_M)
+    meets = ~np.stack(lips[::-1], axis=1) & near[:, None] & (gaps > NEAREST_M)
     rows = np.flatnonzero(meets.any(axis=1))
     return Before(rows, np.where(meets, np.minimum(AT_LEAST * gaps, AT_MOST_M), 0.0)[rows], np.isin(rows, edge))
 

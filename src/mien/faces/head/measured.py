@@ -23,6 +23,7 @@ from .arrays import parse_arrays
 from .derived import derived_morphs
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 Scalar = TypeVar("Scalar", bound=np.generic)
 Kind = Literal["cage", "surface"]
 

@@ -21,7 +21,7 @@ from mien.core.mesh import Ints, Points
 
 from .angles import soft_step
 from .falloff import bell, ellipse, own_side
-from .measured import Archive, Floats, Measured
+from .measured import Archive, Bools, Floats, Measured
 from .moves import Move
 from .regions import weigh_region
 from .units import PARKE_UNIT_M as UNIT
@@ -51,6 +51,12 @@ UPPER_RINGS = {"mj": 0.2, "mi": 1.0, "m0": 1.0, "mh": 1.0, "m1": 0.95, "mb": 0.8
 UPPER_STATIONS = {station: 1.0 - (station / 5.0) * (station / 5.0) for station in range(5)}
 """Shares of ``mouth.upper_lip``: full effect in the middle, none at the corner, station 5."""
 
+WALL_RINGS = {"mj": 0.5, "mk": 0.0}
+"""Shares of the width that the walls of the mouth take: cheeks that a shape narrows must hold them."""
+
+RED_RINGS = ("mi", "m0", "mh", "m1", "mb")
+"""What of a lip may pass the other jaw's teeth, as the lower lip does in an f."""
+
 TUCK_RINGS = {"mi": 1.0, "m0": 1.0, "mh": 0.95, "m1": 0.55, "mb": 0.4, "m2": 0.15}
 TUCK_STATIONS = {6: 0.35, 7: 0.8, 8: 1.0, 9: 1.0}
 TUCK_SHIFT_M = (0.0, -0.0016, -0.0072)
@@ -60,9 +66,9 @@ CONTACT_RINGS = {"m0": 1.0, "mj": 0.3, "mi": 1.0, "mh": 0.92, "m1": 0.7, "mb": 0
 """Shares of closing; the first ring is where the lips meet, whose gap is closed."""
 
 INNER = list(CONTACT_RINGS).index("mi")
-LOCK, LOCK_M = 1.5, 0.003
-"""How far inner edges of closed lips reach past one another, by how far a shape has torn the lips apart; and at most,
-so that they stay inside."""
+LOCK, LOCK_M, WHOLE_M = 1.5, 0.003, 0.0001
+"""How far inner edges of closed lips reach past one another, by how far a shape has torn the lips apart; at most, so
+that they stay inside; and what counts as not torn."""
 
 CONTACT_STATIONS = (
     (0, 9, 0.0001, 0.0005),
@@ -118,6 +124,7 @@ class MouthRegions:
         upper: of the upper lip's raise.
         tuck: of the lower lip under the teeth.
         contacts: what meets when the lips close.
+        reds: (V,) whether a vertex is of the upper, and of the lower lip, which may pass the other's row of teeth.
         over_teeth: (K,) vertices of the upper lip that stay in front of the teeth.
     """
 
@@ -129,6 +136,7 @@ class MouthRegions:
     upper: Floats
     tuck: Floats
     contacts: Contacts
+    reds: tuple[Bools, Bools]
     over_teeth: Ints
 
     @cached_property
@@ -156,7 +164,7 @@ def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
     )
     left_red, right_red = (_by_ring(archive, CORNER_RINGS, CORNER_STATIONS, (side,)) for side in (0, 1))
     return MouthRegions(
-        around=ellipse(points, CENTRE, AROUND_M, AROUND_REACH) * (1.0 - NOSE_STAYS * nose),
+        around=ellipse(points, CENTRE, AROUND_M, AROUND_REACH) * (1.0 - NOSE_STAYS * nose) * _reaching_in(archive),
         lips=ellipse(points, CENTRE, (0.026, 0.0105), 1.8) * taper,
         ends=np.array([_vertex(archive, "m0", CORNER, side) for side in (0, 1)]),
         corner=(left, right),
@@ -164,8 +172,23 @@ def mouth_regions(archive: Archive, measured: Measured) -> MouthRegions:
         upper=_by_ring(archive, UPPER_RINGS, UPPER_STATIONS),
         tuck=_by_ring(archive, TUCK_RINGS, TUCK_STATIONS),
         contacts=_contacts(archive, points),
+        reds=(_red(archive, range(5)), _red(archive, range(6, 10))),
         over_teeth=np.flatnonzero(_by_ring(archive, dict.fromkeys(TEETH_RINGS, 1.0), dict.fromkeys(range(6), 1.0))),
     )
+
+
+def _reaching_in(archive: Archive) -> Floats:
+    """(V,) shares of the width: less inside the mouth."""
+    share = np.ones(len(archive.mirror))
+    for name, number in archive.vertex.items():
+        if (ring := name.split("_")[0]) in WALL_RINGS:
+            share[[number, archive.mirror[number]]] = WALL_RINGS[ring]
+    return share
+
+
+def _red(archive: Archive, stations: range) -> Bools:
+    """(V,) whether a vertex is of a lip's red, or beside it, at some stations."""
+    return _by_ring(archive, dict.fromkeys(RED_RINGS, 1.0), dict.fromkeys(stations, 1.0)) > 0.0
 
 
 def _vertex(archive: Archive, ring: str, station: int, side: int) -> int:
@@ -377,7 +400,7 @@ def seal_lips(points, numbers, shares, touching):
             torn += ahead * ahead
         behind = 0 if ahead > 0.0 else 1
         for ring in range(numbers.shape[2]):
-            points[numbers[c, behind, ring], 2] += held * shares[ring] * abs(ahead)
-        lock = held * min(LOCK * np.sqrt(torn), LOCK_M)
+            points[numbers[c, behind, ring], 2] += held * shares[ring] * max(abs(ahead) - WHOLE_M, 0.0)
+        lock = held * min(LOCK * max(np.sqrt(torn) - WHOLE_M, 0.0), LOCK_M)
         points[numbers[c, 0, INNER], 1] -= 0.5 * lock
         points[numbers[c, 1, INNER], 1] += 0.5 * lock

@@ -130,7 +130,12 @@ class Poser:
         inner = archive.quads[archive.groups == archive.group_names.index("mouth")]
         seen = ~np.isin(np.arange(len(measured.points)), inner)
         before = before_teeth(
-            measured.points, measured.jaw_share, seen, contacts.numbers[:, :, 0], self._inside[: len(lower)], lower
+            measured.points,
+            mouth.reds,
+            seen,
+            contacts.numbers[:, :, 0],
+            self._inside[: len(lower)],
+            lower,
         )
         share = np.ones(layout.topology.vertex_count)
         share[layout.span["skin"]] = neck_share(measured.points)[layout.skin]
