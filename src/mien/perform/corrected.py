@@ -115,7 +115,7 @@ def _join(cues: Iterable[Cue]) -> tuple[Cue, ...]:
 def _spell(sheet: CueSheet, tier: str) -> Iterator[Cue]:
     """Phones of the labels of a tier, each with its share of the label's time."""
     cues = sheet.tiers[tier]
-    alphabet = _find_alphabet([cue.symbol for cue in cues])
+    alphabet = find_alphabet([cue.symbol for cue in cues])
     stress = ""
     for number, cue in enumerate(fill_gaps(cues, sheet.length_s), start=1):
         if not cue.symbol:
@@ -134,7 +134,7 @@ def _spell(sheet: CueSheet, tier: str) -> Iterator[Cue]:
 
 
 @dataclass(frozen=True)
-class _Label:
+class Label:
     """Phones without stress, and the mark of stress that stands before them or at their end, if any."""
 
     phones: tuple[str, ...]
@@ -142,30 +142,30 @@ class _Label:
 
 
 @dataclass(frozen=True)
-class _Alphabet:
+class Alphabet:
     """How phones are written."""
 
     name: str
     phones: Mapping[str, tuple[str, ...]]
 
-    def read(self, symbol: str) -> _Label | None:
+    def read(self, symbol: str) -> Label | None:
         """What a label says; None when it is not of this alphabet."""
         if _is_pause(symbol):
-            return _Label((SILENCE,))
+            return Label((SILENCE,))
         if self.name == "arpabet":
             return self._read_arpabet(symbol.upper()) or self._read_letters(symbol.upper(), "")
         stress = next((digit for mark, digit in _STRESS.items() if symbol.startswith(mark)), "")
         return self._read_letters(symbol.lstrip("".join(_STRESS)), stress)
 
-    def _read_arpabet(self, symbol: str) -> _Label | None:
+    def _read_arpabet(self, symbol: str) -> Label | None:
         plain = symbol.rstrip("012")
         phones = self.phones.get(plain)
         digit = symbol[len(plain) :]
         if phones is None or len(digit) > (phones[0] in VOWELS):
             return None
-        return _Label(phones, digit)
+        return Label(phones, digit)
 
-    def _read_letters(self, symbol: str, stress: str) -> _Label | None:
+    def _read_letters(self, symbol: str, stress: str) -> Label | None:
         """One or two phones without what tells no more than length and breath; the longest that is known wins."""
         phones: tuple[str, ...] = ()
         letters = self._plain(symbol)
@@ -173,7 +173,7 @@ class _Alphabet:
             known = next((letters[:width] for width in (3, 2, 1) if letters[:width] in self.phones), "")
             phones += self.phones.get(known, ())
             letters = letters[len(known) :]
-        return _Label(phones, stress) if phones and not letters else None
+        return Label(phones, stress) if phones and not letters else None
 
     def _plain(self, symbol: str) -> str:
         composed = unicodedata.normalize("NFC", symbol)
@@ -194,13 +194,13 @@ def _is_pause(symbol: str) -> bool:
     return symbol.lower() in _read_labels()["pause"]
 
 
-def _find_alphabet(symbols: Sequence[str]) -> _Alphabet:
-    """The one that knows the most labels of a tier."""
+def find_alphabet(symbols: Sequence[str]) -> Alphabet:
+    """What labels of phones are written in: the alphabet that knows the most of them."""
     return min(_alphabets(), key=lambda alphabet: sum(alphabet.read(symbol) is None for symbol in set(symbols)))
 
 
 @cache
-def _alphabets() -> tuple[_Alphabet, ...]:
+def _alphabets() -> tuple[Alphabet, ...]:
     labels = _read_labels()
     # Capital letters among voices' IPA are one voice's own; so is the mark of a palatal consonant as a sound.
     letters = {
@@ -211,7 +211,7 @@ def _alphabets() -> tuple[_Alphabet, ...]:
         "ipa": {letter: phones for letter, phones in letters.items() if letter != "ʲ"} | labels["ipa"],
         "sampa": labels["sampa"],
     }
-    return tuple(_Alphabet(name, MappingProxyType(own[name])) for name in ALPHABETS)
+    return tuple(Alphabet(name, MappingProxyType(own[name])) for name in ALPHABETS)
 
 
 @cache
