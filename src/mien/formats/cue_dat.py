@@ -61,7 +61,7 @@ def parse_dat(text: str, source: str, rate: Fraction) -> CueSheet:
     Raises:
         LoadError: a line is something else, or frames do not rise.
     """
-    lines = text.splitlines()
+    lines = text.split("\n")
     if lines[0].strip() != HEAD:
         raise LoadError(source, f"want {HEAD!r}, got {lines[0]!r}", line=1)
     steps: list[tuple[int, float, str]] = []

@@ -74,7 +74,7 @@ def parse_rhubarb_tsv(text: str, source: str) -> CueSheet:
         LoadError: a line is something else, or times do not rise.
     """
     steps: list[tuple[int, float, str]] = []
-    for line, cells in enumerate((row.split("\t") for row in text.splitlines()), start=1):
+    for line, cells in enumerate((row.split("\t") for row in text.split("\n")), start=1):
         if cells == [""]:
             continue
         if len(cells) != 2:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -21,6 +22,10 @@ LONGEST_S = 1e6
 
 ROUNDING_S = 1e-6
 """By which a cue may begin before the one before it ends, seconds: other programs round each time for itself."""
+
+
+_NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+"""Source: W3C, Extensible Markup Language 1.0, section 2.2."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +59,7 @@ class CueSheet:
         for name, cues in tiers.items():
             end_s = 0.0
             for number, cue in enumerate(cues, start=1):
-                wrong = find_fault(cue, end_s, self.length_s) or ("" if cue.symbol.strip() else "has no symbol")
-                if wrong:
+                if wrong := find_fault(cue, end_s, self.length_s) or _find_misprint(cue.symbol):
                     raise MienError(f"{place_of(name, number)}: {wrong}")
                 end_s = cue.end_s
 
@@ -104,6 +108,13 @@ def find_fault(cue: Cue, end_s: float, length_s: float) -> str:
     if cue.end_s > length_s + ROUNDING_S:
         return f"{span} ends after everything does, at {length_s:.10g} s"
     return ""
+
+
+def _find_misprint(symbol: str) -> str:
+    """What is wrong with a symbol; nothing, an empty text, where all is well."""
+    if not symbol.strip():
+        return "has no symbol"
+    return f"{symbol!r} holds a character that no text can have" if _NO_TEXT.search(symbol) else ""
 
 
 def place_of(tier: str, number: int) -> str:

@@ -35,7 +35,7 @@ def parse_tsv(text: str, source: str) -> CueSheet:
         LoadError: a row has other columns, a time is no number, or the cues of a tier are not in order.
     """
     rows: dict[str, list[Interval]] = {}
-    for line, cells in enumerate((row.split("\t") for row in text.splitlines()), start=1):
+    for line, cells in enumerate((row.split("\t") for row in text.split("\n")), start=1):
         if line == 1 or cells == [""]:
             continue
         if len(cells) != len(COLUMNS):

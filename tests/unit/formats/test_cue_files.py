@@ -131,6 +131,13 @@ def test_a_table_is_a_row_a_cue(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize("name", ["a.tsv", "a.json", "a.TextGrid"])
+def test_line_ends_of_other_scripts_end_no_row(tmp_path: Path, name: str) -> None:
+    sheet = CueSheet(1.0, {"words": (Cue(0.0, 0.5, "a\u2028b"), Cue(0.5, 1.0, "c\x85d"))})
+    write_cue_file(sheet, tmp_path / name)
+    assert read_cue_file(tmp_path / name).tiers == sheet.tiers
+
+
 def test_a_tab_has_no_place_in_a_table(tmp_path: Path) -> None:
     with pytest.raises(MienError, match=r"tier 'words', interval 1: 'a\\tb' holds a tab"):
         write_cue_file(CueSheet(1.0, {"words": (Cue(0.0, 1.0, "a\tb"),)}), tmp_path / "a.tsv")

@@ -25,6 +25,8 @@ from mien.timeline import Timeline
         ([Cue(0.1, math.nan, "a")], "no finite number"),
         ([Cue(math.inf, 0.2, "a")], "no finite number"),
         ([Cue(0.1, 0.2, "  ")], "has no symbol"),
+        ([Cue(0.1, 0.2, "a\x00")], r"interval 1: 'a\\x00' holds a character that no text can have"),
+        ([Cue(0.1, 0.2, "\ud800")], "holds a character that no text can have"),
     ],
 )
 def test_cues_out_of_order_are_refused_with_tier_and_number(cues: list[Cue], said: str) -> None:
