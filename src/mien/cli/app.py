@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import faces, params, play, presets, render, say, vocab, voices, warmup
+from . import faces, lipsync, params, play, presets, render, say, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -19,6 +19,7 @@ app = typer.Typer(
 
 for command in (
     say.say,
+    lipsync.lipsync,
     render.render,
     play.play,
     faces.faces,

@@ -53,6 +53,15 @@ Subtitles = Annotated[
 ]
 Variable = Annotated[bool, typer.Option("--variable", help="Equal pictures of a film become one that stays longer.")]
 
+Transcript = Annotated[
+    str | None,
+    typer.Option("--text", metavar="T|@FILE|-", help="What the recording says; without it, words are recognised."),
+]
+Cues = Annotated[
+    Path | None,
+    typer.Option("--cues", metavar="FILE", help="Words and phones corrected by hand, such as .TextGrid; they win."),
+]
+
 Size = Annotated[str | None, typer.Option("--size", metavar="WxH", help="Pixels: 1024 or 1280x720.  [default: 1024]")]
 Fps = Annotated[
     str | None,

@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from . import options
+from .stages import Stages
+
+if TYPE_CHECKING:
+    from mien.speech import Speech
 
 
 def say(
-    text: Annotated[
-        str, typer.Argument(metavar="TEXT|@FILE|-", help="What to say, a file to read from, or - for standard input.")
-    ],
     out: options.Film,
+    text: Annotated[
+        str | None,
+        typer.Argument(metavar="TEXT|@FILE|-", help="What to say, a file to read from, or - for standard input."),
+    ] = None,
     face: options.Face = "head",
     voice: Annotated[
         str | None, typer.Option("--voice", metavar="NAME", help="Who speaks: a name from 'mien voices'.")
     ] = None,
+    audio: Annotated[
+        Path | None,
+        typer.Option("--audio", metavar="FILE", help="A recording to speak with: WAV, MP3, OGG, FLAC, M4A, a film."),
+    ] = None,
+    transcript: options.Transcript = None,
+    cues: options.Cues = None,
     style: Annotated[
         str,
         typer.Option(
@@ -67,6 +79,8 @@ def say(
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     mien say "Hello there." -o hello.glb
+    mien say --audio line.wav --text "Call me at noon." -o line.mp4
+    mien say --audio line.wav --cues corrected.TextGrid -o line.mp4
     echo Hello | mien say - --emotion smile=0.6 -o hello.json
     """
     from mien import api
@@ -75,7 +89,6 @@ def say(
     from mien.perform import check_emotion, listen, load_style
 
     from . import settings
-    from .stages import Stages
     from .writing import write
 
     rate = DEFAULT_FPS if fps is None else settings.parse_rate(fps)
@@ -102,18 +115,13 @@ def say(
 
         check_face(subject)
     pose = settings.make_pose(subject, values, preset, units, mix, person)
-    api.find_voice(voice)
+    check_source(text, voice, audio, transcript)
     mood, amount = settings.parse_emotion(emotion)
     if mood is not None:
         check_emotion(subject, mood, amount)
     manner = load_style(style)
-    words = settings.read_text(text)
-
     stages = Stages(quiet)
-    with stages.progress("speaking") as report:
-        speech = api.speak(words, voice, report=lambda done, total, doing: report(done, total))
-    if speech.skipped:
-        stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
+    speech = find_speech(text, voice, audio, transcript, cues, stages)
     if kind in HEARD:
         performance = listen(speech, subject)
     else:
@@ -129,3 +137,44 @@ def say(
                 scene=scene,
             )
     write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)
+
+
+def check_source(text: str | None, voice: str | None, audio: Path | None, transcript: str | None) -> None:
+    """Nothing, when it is clear whether a voice or a recording speaks.
+
+    Raises:
+        MienError: neither or both do, or an option belongs to the other.
+        UnknownNameError: there is no such voice.
+    """
+    from mien import api
+    from mien.core import MienError
+
+    if audio is None:
+        if text is None:
+            raise MienError('nothing to say — give a text, as in mien say "Hello there." -o hello.mp4, or --audio FILE')
+        if transcript is not None:
+            raise MienError("--text says what a recording says — add --audio FILE, or leave --text out")
+        api.find_voice(voice)
+    elif text is not None:
+        raise MienError(f"{text!r}: the recording {audio} speaks already — what it says goes after --text")
+    elif voice is not None:
+        raise MienError(f"--voice {voice}: the recording {audio} has its own — leave one of them out")
+
+
+def find_speech(
+    text: str | None, voice: str | None, audio: Path | None, transcript: str | None, cues: Path | None, stages: Stages
+) -> Speech:
+    """What the face says: a text by a voice, or a recording; with the times of a file of cues where there is one."""
+    from mien import api
+
+    from . import settings
+    from .hearing import hear_file, take_cues
+
+    if audio is not None:
+        return hear_file(audio, transcript, cues, stages).speech
+    words = settings.read_text(text or "")
+    with stages.progress("speaking") as report:
+        speech = api.speak(words, voice, report=lambda done, total, doing: report(done, total))
+    if speech.skipped:
+        stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
+    return speech if cues is None else take_cues(speech, cues)

@@ -69,10 +69,10 @@ def cues_for_speech(sheet: CueSheet, length_s: float | None = None) -> tuple[tup
         raise MienError(f"cues: there is no tier of phones, only {there} — name one of them 'phones'")
     if not sheet.tiers[tier]:
         raise MienError(f"cues: tier {tier!r} is empty, want phones")
-    late = sheet.tiers[tier][-1]
-    if late.end_s > length_s + SLACK_S and not _is_pause(late.symbol):
+    end_s = max((cue.end_s for cue in sheet.tiers[tier] if not _is_pause(cue.symbol)), default=0.0)
+    if end_s > length_s + SLACK_S:
         raise MienError(
-            f"cues: tier {tier!r} ends at {late.end_s:.3f} s, but the sound at {length_s:.3f} s — is it another's?"
+            f"cues: tier {tier!r} ends at {end_s:.3f} s, but the sound at {length_s:.3f} s — is it another's?"
         )
     word_tier = _find_tier(sheet, WORD_TIERS)
     words = () if word_tier is None else sheet.tiers[word_tier]
