@@ -43,8 +43,8 @@ LEAST_CLOSE_S = 0.036
 NOISY = ("sibilant", "labial")
 """Kinds of phones whose noise needs open lips: holds beside them grow to the other side."""
 
-SHORT_VOWEL_S = 0.1
-"""A vowel between two holds that is shorter is left to itself: the holds grow away from it."""
+SHORT_VOWEL_S = 0.15
+"""A vowel between two closures that is shorter is left to itself: they grow away from it, so that it is seen open."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def wish(phones: Sequence[Cue]) -> list[Hold]:
             noise_before = i > 0 and rows[i - 1].kind in NOISY
             noise_after = i + 1 < len(rows) and rows[i + 1].kind in NOISY
             room = CLOSE_SHARE * phones[i - 1].length_s if i and not noise_before else CLOSE_S * (i == 0)
-            vowel_before = i > 1 and _is_short_vowel(phones[i - 1], rows[i - 1]) and bool(rows[i - 2].hold)
-            vowel_after = i + 2 < len(rows) and _is_short_vowel(phones[i + 1], rows[i + 1]) and bool(rows[i + 2].hold)
+            vowel_before = i > 1 and _is_squeezed(phones[i - 1], rows[i - 2 : i + 1])
+            vowel_after = i + 2 < len(rows) and _is_squeezed(phones[i + 1], rows[i : i + 3])
             out.append(
                 Hold(
                     start_s=cue.start_s + row.hold_from * cue.length_s,
@@ -179,8 +179,8 @@ def ease(holds: Sequence[Hold]) -> tuple[Hold, ...]:
     for i, hold in enumerate(out):
         before = hold.start_s - out[i - 1].end_s if i else np.inf
         after = out[i + 1].start_s - hold.end_s if i + 1 < len(out) else np.inf
-        rise = min(hold.rise_s, 0.55 * before)
-        out[i] = replace(hold, rise_s=rise, fall_s=min(hold.fall_s, FASTER * rise, 0.4 * after))
+        rise = min(hold.rise_s, 0.4 * before)
+        out[i] = replace(hold, rise_s=rise, fall_s=min(hold.fall_s, FASTER * rise, 0.3 * after))
     return tuple(out)
 
 
@@ -210,8 +210,10 @@ def nearness(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
     return value
 
 
-def _is_short_vowel(cue: Cue, row: PhoneTarget) -> bool:
-    return row.is_vowel and cue.length_s < SHORT_VOWEL_S
+def _is_squeezed(cue: Cue, rows: Sequence[PhoneTarget]) -> bool:
+    """Whether a phone, the middle one of three, is a short vowel between two closures."""
+    before, row, after = rows
+    return row.is_vowel and cue.length_s < SHORT_VOWEL_S and before.hold == after.hold == "closure"
 
 
 def _gap(first: Hold, second: Hold) -> float:
