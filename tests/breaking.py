@@ -10,7 +10,15 @@ import numpy as np
 from mien.core import ParameterTable, Pose
 from mien.faces.head import Head
 from sightings import eye_pixels, mouth_pixels
-from soundness import RIGID, Posed, flipped_polygons, lids_into_balls_mm, skin_into_balls_mm, through_skin_mm
+from soundness import (
+    RIGID,
+    Posed,
+    flipped_polygons,
+    lids_into_balls_mm,
+    skin_into_balls_mm,
+    through_skin_mm,
+    tongue_in_teeth_mm,
+)
 
 PARKE = ("Parke 1974, fig", "Parke 1974, section 3.5")
 NO_SHAPE = ("color", "target", "light", "viewer")
@@ -102,6 +110,16 @@ def mouth_shown(posed: Posed) -> float:
     return float(sum(mouth_pixels(changed(posed, mouth__closure=1.0))))
 
 
+def teeth_through_mm(posed: Posed) -> float:
+    """How far teeth and gums come through the skin; but for a lower lip that is tucked, which lies behind them."""
+    return through_skin_mm(changed(posed, mouth__tuck=0.0), "teeth", "gums")
+
+
+def teeth_shown(posed: Posed) -> float:
+    """Pixels of teeth and gums that show before closed lips or between them."""
+    return float(mouth_pixels(changed(posed, mouth__closure=1.0))[0])
+
+
 def resting_mouth_shown(posed: Posed) -> float:
     """Pixels of the inside of a mouth at rest."""
     return float(sum(mouth_pixels(resting(posed))))
@@ -109,8 +127,9 @@ def resting_mouth_shown(posed: Posed) -> float:
 
 MEASURES = (
     Measure("numbers that are not finite", 0.0, not_finite),
-    Measure("teeth through the skin, mm", 0.5, lambda p: through_skin_mm(p, "teeth", "gums")),
+    Measure("teeth through the skin, mm", 0.5, teeth_through_mm),
     Measure("tongue through the skin, mm", 0.5, lambda p: through_skin_mm(p, "tongue")),
+    Measure("tongue in the teeth, mm", 0.5, tongue_in_teeth_mm),
     Measure("eyeballs through the skin, mm", 0.5, skin_into_balls_mm),
     Measure("lids into the eyeballs, mm", A_THIRD_OF_A_PIXEL_MM, lids_into_balls_mm),
     Measure(
@@ -121,5 +140,6 @@ MEASURES = (
     Measure("flipped polygons", 0.0, lambda p: float(len(flipped_polygons(p)))),
     Measure("eye between shut lids, pixels", 0.0, eyes_shown, dear=True),
     Measure("mouth between closed lips, pixels", 0.0, mouth_shown, dear=True),
+    Measure("teeth before closed lips, pixels", 0.0, teeth_shown, dear=True),
     Measure("mouth at rest, pixels", 0.0, resting_mouth_shown, dear=True),
 )

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, cKDTree
 
 from mien.core import Mesh, Pose, Scene
 from mien.core.mesh import Ints, Points
 from mien.core.subdivision import refine
 from mien.faces.head import Head
 from mien.faces.head.measured import LID_RINGS, archive
+from mien.faces.head.teeth import RINGS, SIDES
 from mien.render import Renderer
 
 MM = 1000.0
@@ -24,8 +25,16 @@ RIGID = ("head.turn", "head.nod", "head.tilt", "head.forward")
 """Moves of the whole head on its neck: measures are taken without them."""
 
 
-SPACING_M = 0.004
-"""What stands above a vertex of the refined skin is less than this aside of it."""
+AXIS_BACK_M = 0.050
+"""How far the middle of the mouth lies behind the foremost tooth."""
+
+NEIGHBOURS = 12
+"""Refined vertices around which a point's way is followed."""
+
+CROWN = RINGS * SIDES + 1
+"""Vertices of a tooth."""
+
+TRIANGLES = (0, 1, 2), (0, 2, 3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,16 +58,9 @@ class Posed:
         """(V'', 3) m of the skin refined twice."""
         return _refiner(2).refine(self.mesh).points
 
-    @cached_property
-    def normals(self) -> Points:
-        """(V', 3) unit normals of the refined skin; 0 where there is none."""
-        quads = skin_quads(self.head)
-        total = spread(quad_normals(self.fine, quads), quads, len(self.fine))
-        return total / np.maximum(np.linalg.norm(total, axis=1), 1e-15)[:, None]
-
-    def nearest_skin(self, points: Points) -> Ints:
-        """(N,) refined vertices of the skin."""
-        return skin_rows(self.head)[self._tree.query(points)[1]]
+    def nearest_skin(self, points: Points, count: int = 1) -> Ints:
+        """(N, count) refined vertices of the skin, nearest first."""
+        return skin_rows(self.head)[self._tree.query(points, np.arange(1, count + 1))[1]]
 
     @cached_property
     def _tree(self) -> cKDTree:
@@ -125,21 +127,53 @@ def is_outside(head: Head) -> np.ndarray:
     return out
 
 
+@cache
+def outer_quads_at(head: Head) -> Ints:
+    """(V', K) polygons of outer skin around each refined vertex, -1 where there are no more."""
+    quads = skin_quads(head)
+    outer = np.flatnonzero(~np.repeat(inner_quads(), 4))
+    vertices, polygons = quads[outer].ravel(), np.repeat(outer, 4)
+    order = np.argsort(vertices, kind="stable")
+    counts = np.bincount(vertices, minlength=refine(head.topology).topology.vertex_count)
+    column = np.arange(len(order)) - np.repeat(np.cumsum(counts) - counts, counts)
+    out = np.full((len(counts), counts.max()), -1, dtype=np.int64)
+    out[vertices[order], column] = polygons[order]
+    return out
+
+
 # ---------------------------------------------------------------- what comes through
 
 
 def through_skin_mm(posed: Posed, *parts: str) -> float:
-    """How far any of the parts stands out of the skin that is nearest to it; negative where none of them does."""
+    """How deep outer skin lies behind any point of the parts, on its level way to the middle of the mouth.
+
+    A tooth that shows in an open mouth has none behind it, however near the lip beside it is.
+    """
     points = np.concatenate([posed.part(name) for name in parts])
-    near = posed.nearest_skin(points)
-    counted = is_outside(posed.head)[near]
-    if not counted.any():
-        return -np.inf
-    near, normals = near[counted], posed.normals[near[counted]]
-    way = points[counted] - posed.fine[near]
-    height = (way * normals).sum(axis=1)
-    aside = np.linalg.norm(way - height[:, None] * normals, axis=1)
-    return MM * float(np.where(aside < SPACING_M, height, -np.inf).max())
+    back = np.minimum(points[:, 2].max() - AXIS_BACK_M - points[:, 2], 0.0)
+    ways = np.stack([-points[:, 0], np.zeros(len(points)), back], axis=1)
+    ways /= np.maximum(np.linalg.norm(ways, axis=1), 1e-9)[:, None]
+    around = outer_quads_at(posed.head)[posed.nearest_skin(points, NEIGHBOURS)].reshape(len(points), -1)
+    rows = np.repeat(np.arange(len(points)), around.shape[1])
+    pairs = np.unique(np.stack([rows, around.ravel()], axis=1)[around.ravel() >= 0], axis=0)
+    at, quads = pairs[:, 0], skin_quads(posed.head)[pairs[:, 1]]
+    depths = [_depths(points[at], ways[at], *(posed.fine[quads[:, k]] for k in corners)) for corners in TRIANGLES]
+    return MM * float(np.max(depths, initial=-np.inf))
+
+
+def _depths(points: Points, ways: Points, a: Points, b: Points, c: Points) -> np.ndarray:
+    """(N,) m from a point down to the plane of a triangle that its way enters; none where it enters it nowhere.
+
+    Source: Moeller and Trumbore 1997, Fast, minimum storage ray/triangle intersection.
+    """
+    first, second, away = b - a, c - a, points - a
+    across, along, normal = np.cross(ways, second), np.cross(away, first), np.cross(first, second)
+    size = (first * across).sum(axis=1)
+    size = np.where(np.abs(size) > 1e-18, size, np.inf)
+    u, v = (away * across).sum(axis=1) / size, (ways * along).sum(axis=1) / size
+    far, facing = (second * along).sum(axis=1) / size, (normal * ways).sum(axis=1)
+    met = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (far > 0.0) & (facing < 0.0)
+    return np.where(met, far * -facing / np.maximum(np.linalg.norm(normal, axis=1), 1e-15), -np.inf)
 
 
 def skin_into_balls_mm(posed: Posed) -> float:
@@ -182,6 +216,22 @@ def lid_rows(head: Head, side: str) -> Ints:
     coarse = set(lids.index[(lids.side == sign) & np.isin(lids.ring, rings)].tolist())
     wanted = np.array([set(row) <= coarse for row in archive().quads.tolist()])
     return np.unique(skin_quads(head)[np.repeat(wanted, 4)])
+
+
+def tongue_in_teeth_mm(posed: Posed) -> float:
+    """How deep a point of the tongue, or the middle of one of its polygons, lies in a crown."""
+    part, topology = posed.head.topology.part("tongue"), posed.head.topology
+    starts = topology.starts[part.first : part.last + 1]
+    sums = np.add.reduceat(posed.mesh.points[topology.corners[: starts[-1]]], starts[:-1])
+    points = np.concatenate([posed.part("tongue"), sums / np.diff(starts)[:, None]])
+    deepest = 0.0
+    for crown in posed.part("teeth").reshape(-1, CROWN, 3):
+        low, high = crown.min(axis=0), crown.max(axis=0)
+        near = points[((points > low) & (points < high)).all(axis=1)]
+        if len(near):
+            planes = ConvexHull(crown).equations
+            deepest = max(deepest, float((-(near @ planes[:, :3].T + planes[:, 3])).min(axis=1).max()))
+    return MM * deepest
 
 
 # ---------------------------------------------------------------- the skin itself
