@@ -30,14 +30,13 @@ def format_dat(sheet: CueSheet, rate: Fraction, tier: str = SHAPES) -> Iterator[
     names = set_of(sheet, tier)
     shapes = choose_shapes(sheet.tier(tier), sheet.length_s, rate, names)
     changes = [(frame, after) for frame, (before, after) in enumerate(pairwise(["", *shapes]), 1) if after != before]
-    renamed = _rename if names.name == "rhubarb" else str
+    renamed = _rename if names.name == "rhubarb" and names.mouths.keys() >= set(shapes) else str
     return _lines([(frame, renamed(shape)) for frame, shape in [*changes, (len(shapes) + 1, names.rest)]])
 
 
 def _rename(letter: str) -> str:
     sets = shape_sets()
-    mouth = sets["rhubarb"].mouths.get(letter)
-    return letter if mouth is None else sets["preston-blair"].name_of(mouth)
+    return sets["preston-blair"].name_of(sets["rhubarb"].mouths[letter])
 
 
 def format_rhubarb_dat(sheet: CueSheet, rate: Fraction, tier: str = SHAPES) -> Iterator[str]:

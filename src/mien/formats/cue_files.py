@@ -108,6 +108,8 @@ def write_cue_file(
     """
     path = Path(path)
     write = WRITERS[_check(path, layout)]
+    if tier is not None:
+        sheet.tier(tier)
     pieces = write(sheet, Wanted(check_rate(fps), tier))
     with writing(path) as temporary, temporary.open("w", encoding="utf-8", errors="replace", newline="\n") as file:
         file.writelines(pieces)

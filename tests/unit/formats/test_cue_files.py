@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from cue_cases import MARY, hello, mary, sheets
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from small_face import opening_jaw
 
 from mien.core import Cue, LoadError, MienError, RangeError, UnknownNameError
@@ -210,6 +211,8 @@ def test_a_dat_counts_in_frames_of_its_rate(tmp_path: Path) -> None:
 def test_names_that_are_not_rhubarbs_stay_in_a_dat(tmp_path: Path) -> None:
     sheet = CueSheet(1.0, {"shapes": (Cue(0.0, 0.5, "sil"), Cue(0.5, 1.0, "E"))})
     assert written(tmp_path, sheet, "a.dat") == "MohoSwitch1\n1 sil\n13 E\n25 sil\n"
+    words = CueSheet(1.0, {"words": (Cue(0.0, 0.5, "A"), Cue(0.5, 1.0, "stone"))})
+    assert written(tmp_path, words, "a.dat", tier="words") == "MohoSwitch1\n1 A\n13 stone\n25 X\n"
 
 
 @pytest.mark.parametrize("name", ["a.dat", "a.xml"])
@@ -219,6 +222,8 @@ def test_one_tier_is_the_shapes_unless_another_is_asked_for(tmp_path: Path, name
         write_cue_file(words, tmp_path / name)
     assert not list(tmp_path.iterdir())
     assert "Oh" in written(tmp_path, words, name, tier="words")
+    with pytest.raises(UnknownNameError, match="did you mean 'words'"):
+        write_cue_file(words, tmp_path / "a.TextGrid", tier="word")
 
 
 def test_a_layout_that_is_not_there_is_refused_before_and_while_writing(tmp_path: Path) -> None:
@@ -333,6 +338,27 @@ def test_bytes_that_are_no_text_are_refused(tmp_path: Path) -> None:
             read_cue_file(tmp_path / "a.json")
     with pytest.raises(LoadError, match="cannot be read"):
         read_cue_file(tmp_path / "none.json")
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@pytest.mark.parametrize(("suffix", "layout"), [key for key in WRITERS if key[0] in READERS])
+@given(data=st.data())
+def test_any_bytes_in_the_middle_are_read_or_refused_but_no_fault_of_ours(
+    tmp_path: Path, suffix: str, layout: str, data: st.DataObject
+) -> None:
+    path = tmp_path / f"a{suffix}"
+    write_cue_file(hello(), path, layout=layout)
+    whole = path.read_bytes()
+    first, last = sorted(data.draw(st.tuples(st.integers(0, len(whole)), st.integers(0, len(whole)))))
+    odd = st.sampled_from(
+        [b"nan", b"1e999", b"-1", b'"', b"\0", b"\xff", b"\n", b"\t", b"9" * 400, b"<", b"&", b"[", b"--> "]
+    )
+    path.write_bytes(whole[:first] + data.draw(odd | st.binary(max_size=4)) + whole[last:])
+    try:
+        write_cue_file(read_cue_file(path), tmp_path / "b.json")
+    except MienError:
+        return
+    read_cue_file(tmp_path / "b.json")
 
 
 @pytest.mark.parametrize("name", ["a.json", "a.tsv", "a.xml", "a.srt", "a.vtt", "a.dat"])
