@@ -6,7 +6,7 @@ import pytest
 from mien.core import Cue, Pose, Sound, subdivide
 from mien.faces import load_face
 from mien.faces.head.measured import archive
-from mien.perform import perform
+from mien.perform import Style, named_styles, parse_style, perform, style_table
 from mien.speech import Speech, strip_stress
 from support import lip_gap_mm
 
@@ -121,3 +121,31 @@ def test_lips_shut_between_round_sounds_too(fps, round_timeline):
             frame = round(cue.centre_s * fps) / fps
             values = round_timeline.values([frame], HEAD.parameters)[0]
             assert gap_mm(values) < ROUND_SHUT_MM, cue
+
+
+STYLES = {name: parse_style(name) for name in named_styles()}
+STYLES["all at most"] = Style(**{name: row.high for name, row in style_table().items()})
+STYLES["all off but closures"] = Style(**{name: 0.0 for name in style_table() if name != "closures"})
+CHANCE = np.random.default_rng(7)
+STYLES |= {
+    f"chance {number}": Style(**{name: CHANCE.uniform(0.0, row.high) for name, row in style_table().items()
+                                 if name != "closures"})
+    for number in range(4)
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
+@pytest.mark.parametrize("lines", [LINES, ROUND_LINES], ids=["stone", "round"])
+def test_no_style_parts_shut_lips_or_frees_a_tucked_one(style, lines):
+    timeline = perform(speech(lines), HEAD, style=style, seed=3).timeline
+    rest = tuck_mm(upright(HEAD.neutral.values))[1]
+    for cue in timeline.phones:
+        hold = {"P": "closure", "B": "closure", "M": "closure", "F": "tuck", "V": "tuck"}.get(cue.symbol)
+        if hold is None:
+            continue
+        times = np.arange(cue.start_s - 0.05, cue.end_s + 0.05, 0.01)
+        values = timeline.values(times, HEAD.parameters)
+        if hold == "closure":
+            assert min(gap_mm(row) for row in values) < ROUND_SHUT_MM, cue
+        else:
+            assert min(tuck_mm(upright(row))[1] for row in values) < rest - 3.0, cue
