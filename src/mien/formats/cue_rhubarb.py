@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from html import escape
 from itertools import pairwise
-from xml.etree import ElementTree
-from xml.sax.saxutils import escape
 
 from mien.core import Cue, LoadError
 from mien.timeline.json_reader import Node
@@ -104,6 +103,8 @@ def parse_rhubarb_xml(text: str, source: str) -> CueSheet:
     Raises:
         LoadError: it is no XML, something is missing, or times do not rise.
     """
+    from xml.etree import ElementTree
+
     if "<!" in text.replace("<!--", ""):  # nothing that Rhubarb writes, and a way to make a small file endless
         raise LoadError(source, "declares a document type or data, which is not for mouth cues")
     try:
@@ -145,4 +146,4 @@ def _make_sheet(source: str, intervals: Iterable[Interval], duration_s: float, s
 
 
 def _escape(text: str) -> str:
-    return escape(text, {"'": "&apos;", '"': "&quot;"})
+    return escape(text, quote=False).replace("'", "&apos;").replace('"', "&quot;")

@@ -18,8 +18,6 @@ from mien.timeline import Rate, Timeline, exact_rate
 from mien.timeline.rates import time_of
 
 from .atomic import check_file, writing
-from .cue_files import write_cue_file
-from .cue_sheet import sheet_of
 from .notes import notes
 from .pipeline import at_once, run_ahead
 from .rates import DEFAULT_FPS, check_film, check_rate
@@ -223,6 +221,9 @@ def _write_data(job: _Job, subtitles: Sequence[Subtitle]) -> None:
         with writing(job.path) as temporary:
             write_subtitles(subtitles, temporary, job.notes)
     elif job.kind == "textgrid":
+        from .cue_files import write_cue_file
+        from .cue_sheet import sheet_of
+
         write_cue_file(sheet_of(job.timeline), job.path)
     elif job.kind == "wav":
         from .wav import write_wav
