@@ -65,6 +65,13 @@ def flatten(arrays: dict[str, np.ndarray]) -> np.ndarray:
     return moves
 
 
+def left_half(arrays: dict[str, np.ndarray]) -> np.ndarray:
+    """(K, 4) vertices of the polygons on the left where it is smooth."""
+    face = Archive({name: np.asarray(array) for name, array in arrays.items()})
+    quads = face.quads[smooth_quads(face)]
+    return quads[face.floats("surface")[quads, 0].sum(axis=1) > 0.0]
+
+
 def _staying(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """(3 V, 3 V) quadratic cost of moves as such."""
     normals = vertex_normals(points, np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]]))

@@ -119,6 +119,7 @@ def main(folder: Path) -> None:
         done[np.abs(done) < 2e-6] = 0.0
         out[f"morph_{name}"] = done.astype(np.float16)
     out["surface_flatter"] = mend_planes.flatten(out).astype(np.float16)
+    out["plane_quads"] = mend_planes.left_half(out).astype(np.int16)
     mend_lids.shut(out)
     for kind, name in (("control", "cage"), ("onsurface", "surface")):
         blinks = [symmetric_pair(morphs[kind], names, f"eyeBlink_{side}", mirror) * CM for side in "LR"]

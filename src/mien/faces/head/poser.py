@@ -28,6 +28,7 @@ from .moves import Moves, moves_of
 from .muscles import muscle_moves
 from .neck import PIVOT, neck_share
 from .parts import Layout
+from .planing import planes_of
 from .rest import REST_OPENING
 from .table import head_table
 from .teeth import TEETH_FIELDS, teeth_field
@@ -143,6 +144,7 @@ class Poser:
         share[layout.span["beard"]] = neck_share(measured.points)[grown.index[:, 0]]
         share[layout.span["collar"]] = 0.0
         bound = np.concatenate([np.concatenate(strips.index).ravel(), grown.index.ravel()])
+        planes = planes_of(archive, measured.kind)
         self._constants = (
             np.array([*starts, layout.span["tongue"].stop], dtype=np.int64),
             *(np.concatenate([eyes.balls, [(*PIVOT, 0.0)]]), eyes.kappa_deg),
@@ -163,6 +165,7 @@ class Poser:
                 *(tongue.profile, tongue.edges, jaw.chin),
             ),
             *(before.rows, before.clearance, before.edge, archive.vertex[CHIN_END]),
+            *(planes.pairs, planes.free),
             *(archive.vertex["m0_0"], share),
         )
 

@@ -2,8 +2,9 @@
 
 Moves of the skin come first (``moves``): expressions, grooves of folds, interpolations of the shape. What is more
 than moves follows here: lips, jaw, contact of the lips, and the lids, which ride on what lies beneath; the steps of
-the shape, for the skin and for what is inside the mouth; contact of lids with eyeballs and of lips with teeth; eyes,
-lashes, brows and beard; shadows; then the whole head is scaled, and turned on its neck. Folds are shaded last.
+the shape, for the skin and what is inside the mouth; contact of lids with eyeballs and of lips with teeth; planes of
+the classic skin; eyes, lashes, brows and beard; shadows; then the whole head is scaled, and turned on its neck. Folds
+are shaded last.
 
 Source: Parke 1974, chapter 3.
 """
@@ -27,6 +28,7 @@ from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, meet_lids, move_lids
 from .mouth import bridge_lips, close_lips, copy_rows, move_lips, seal_lips, stay_off_teeth, tuck_lip
 from .neck import turn_axes, turn_back, turn_directions, turn_head
+from .planing import plane_skin
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
 from .units import DEG, MM
@@ -296,6 +298,7 @@ def fold_colors(values, drivers, rules, places, dark, amounts, colors):
     "i8[:,:], i8[:], i8[:], i8[:], "  # polygons under the brows
     "b1[:], f8[:,:], f8[:,:], f8[:,:], "  # inside of the mouth
     "i8[:], f8[:,:], b1[:], i8, "  # skin before the teeth
+    "i8[:,:,:], f8[:], "  # polygons that stay plane
     "i8, f8[:], "  # lip's edge, neck
     "f8[:], "  # what no expression moves
     "f8[:,:], i8[:], f8[:,:], f8[:,:], "  # steps of the shape
@@ -319,6 +322,7 @@ def pose_heads(
     quads, brow_vertices, brow_starts, brow_quads,
     carried, tongue_profile, tooth_edges, chin,
     before, clearance, edge, chin_end,
+    plane_pairs, plane_free,
     lip_edge, neck_share,
     rest,
     amounts, kinds, axes, origins,
@@ -341,6 +345,7 @@ def pose_heads(
         carried: and what follows: of ``place_inside``.
         clear_of_balls: of ``keep_off_balls``.
         before: clearance, edge: of ``push_before``; chin_end: of ``lift_row``.
+        plane_pairs: and plane_free: of ``plane_skin``.
         lip_edge: of ``darken``.
         neck_share: of ``turn_all``.
         rest: (3 R,) m, of the vertices from the first of the teeth on: at rest inside the mouth, shaped beyond it.
@@ -381,6 +386,7 @@ def pose_heads(
         push_before(skin, (before, clearance, edge), c[ROLLED : ROLLED + 2], upright, outlines, pressed)
         give_way(inside, carried, upright, pressed)
         seal_lips(skin, contact_numbers, contact_shares, touching)
+        plane_skin(skin, plane_pairs, plane_free, c[SCALE : SCALE + 3], waves)
         for v in range(len(source)):
             for axis in range(3):
                 out[v, axis] = skin[source[v], axis]
