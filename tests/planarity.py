@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
+from unittest.mock import patch
 
 import numpy as np
 
+from mien.faces.head import Head
 from mien.faces.head.creases import crease_edges
 from mien.faces.head.measured import Archive, archive
+from mien.faces.head.planing import planes_of
 from soundness import Posed, bends_deg, quad_normals
 
 SMOOTH_DEG = 20.0
@@ -55,3 +59,11 @@ def smooth_bends_deg(posed: Posed) -> np.ndarray:
 def bent_share(posed: Posed) -> float:
     """Share 0..1 of the polygons of the smooth skin that bend by more than ``PLANE_DEG``."""
     return float((smooth_bends_deg(posed) > PLANE_DEG).mean())
+
+
+def bent_head(head: Head) -> Head:
+    """The head with its polygons as its moves and its shape bend them."""
+    bent = replace(head)
+    with patch("mien.faces.head.poser.planes_of", lambda archive, kind: planes_of(archive, "cage")):
+        bent.shape(bent.neutral)  # which makes its constants
+    return bent

@@ -386,7 +386,7 @@ def pose_heads(
         push_before(skin, (before, clearance, edge), c[ROLLED : ROLLED + 2], upright, outlines, pressed)
         give_way(inside, carried, upright, pressed)
         seal_lips(skin, contact_numbers, contact_shares, touching)
-        plane_skin(skin, plane_pairs, plane_free, c[SCALE : SCALE + 3], waves)
+        plane_skin(skin, plane_pairs, plane_free, c[SCALE : SCALE + 3], scratch[0], scratch[1])
         for v in range(len(source)):
             for axis in range(3):
                 out[v, axis] = skin[source[v], axis]
