@@ -6,6 +6,7 @@ import pytest
 from mien.faces import load_face
 from mien.faces.head import tongue
 from mien.faces.head.measured import archive
+from soundness import Posed, tongue_in_teeth_mm
 from support import in_python
 
 HEAD = load_face("head")
@@ -58,3 +59,16 @@ def test_the_tip_goes_aside_and_up():
     assert (aside - rest)[0, 0] > 0.008
     assert (up - rest)[0, 1] > 0.006
     assert np.abs((aside - rest)[-tongue.SIDES :]).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("values", "most_mm"),
+    [
+        ({"tongue.side": 1.0}, 0.3),
+        ({"tongue.side": -1.0, "jaw.rotation": 20.0}, 0.3),
+        ({"jaw.side": 1.0, "jaw.rotation": 8.0}, 0.3),
+        ({"jaw.side": 1.0}, 1.3),
+    ],
+)
+def test_a_tongue_that_goes_aside_stays_between_the_teeth(values, most_mm):
+    assert tongue_in_teeth_mm(Posed(HEAD, HEAD.neutral.replace(values))) < most_mm

@@ -28,7 +28,8 @@ SIDES = 16
 """Vertices of each ring around the tongue, from the tip to the root."""
 
 JAW_SHARE, SHIFT_SHARE = 0.82, 0.7
-"""How far the tongue goes with the jaw's rotation, and with its sideways and forward moves."""
+"""How far the tongue goes with the jaw's rotation, and with its forward moves; aside it goes all the way, between the
+lower teeth."""
 
 BEHIND_M, TO_LIPS_M, BEYOND_M = 0.0015, 0.0085, 0.0240
 """Ways of the tip: up to the teeth, on to the lips, and out over the lower one."""
@@ -48,13 +49,17 @@ BEND_IN_M, BEND_OUT_M = 0.004, 0.009
 SIDE_IN_M, SIDE_OUT_M = 0.002, 0.009
 """How far the tip bends up or down, and to a side, within the mouth, and as much more outside."""
 
+BESIDE_M = 0.005
+"""Teeth so near in height and depth are beside a point of the tongue."""
+
 
 @dataclass(frozen=True, eq=False)
 class Tongue:
     """A tongue at rest, N vertices.
 
     Attributes:
-        profile: (N, 3) share of the tip's way; height over the middle of its ring, m; half the height of its ring, m.
+        profile: (N, 5) share of the tip's way; height over the middle of its ring, m; half the height of its ring, m;
+            and the room to the teeth on the right and on the left, m.
         edges: (2, 2) m, y and z of the edges of the front teeth, the upper ones first.
         front: (2,) m, height of the edge of the upper front teeth, and how far forward they reach.
     """
@@ -73,7 +78,16 @@ def tongue_of(points: Points, upper_teeth: Points, lower_teeth: Points) -> Tongu
     upper, lower = (teeth[np.abs(teeth[:, 0]) < 0.004] for teeth in (upper_teeth, lower_teeth))
     edges = upper[np.argmin(upper[:, 1]), 1:], lower[np.argmax(lower[:, 1]), 1:]
     front = np.array([upper[:, 1].min(), upper[:, 2].max()])
-    return Tongue(np.stack([tip, points[:, 1] - middle, half], axis=1), np.stack(edges), front)
+    teeth = np.concatenate([upper_teeth, lower_teeth])
+    rooms = [_room(points, teeth, side) for side in (-1.0, 1.0)]
+    return Tongue(np.stack([tip, points[:, 1] - middle, half, *rooms], axis=1), np.stack(edges), front)
+
+
+def _room(points: Points, teeth: Points, side: float) -> Floats:
+    """(N,) m that points may go aside, to the right (-1) or the left, before they meet teeth (K, 3) m."""
+    x, y, z = np.moveaxis(teeth[None] - points[:, None], 2, 0)
+    beside = (np.abs(y) < BESIDE_M) & (np.abs(z) < BESIDE_M) & (teeth[:, 0] * side > 0.0)
+    return np.maximum(np.where(beside, side * x, np.inf).min(axis=1) - CLEAR_M, 0.0)
 
 
 @kernel()
@@ -103,6 +117,7 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
     low_y, low_z = swing(edges[1, 0], edges[1, 1], axis, jaw_sine, jaw_cosine)
     low_y, low_z = low_y + shift[1], low_z + shift[2]
     slope = jaw_sine / jaw_cosine
+    parted = soft_step((edges[0, 0] - low_y - GAP_M) / WIDE_M)
     forward = way_out(out, edges[0, 0] - low_y, lips[0] - lips[1])
     led = soft_step(forward / (BEHIND_M + 0.5 * TO_LIPS_M))
     lip_z = max(lips[2], low_z + CLEAR_M)
@@ -110,7 +125,7 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
         part, above, half = profile[n, 0], profile[n, 1], profile[n, 2]
         middle, z = swing(points[n, 1] - above, points[n, 2] + part * forward, axis, sine, cosine)
         middle, z = middle + SHIFT_SHARE * shift[1], z + SHIFT_SHARE * shift[2]
-        x = points[n, 0] + SHIFT_SHARE * shift[0]
+        x = points[n, 0]
         # Over the teeth: as high as lies between both rows, and on the lower one if there is room.
         floor = low_y + (low_z - z) * slope
         room = max(0.5 * (edges[0, 0] - floor) - CLEAR_M, 0.0)
@@ -126,6 +141,9 @@ def move_tongue(points, profile, edges, tip, jaw_deg, axis, shift, lips):
         over += bend * BEND_OUT_M * outside * outside - (1.0 - share(bend)) * DROOP * beyond * beyond
         onto = led * soft_step((z + ARCH * x * x - low_z + ONTO_M) / ONTO_M)
         y = middle + above + part * (rise * RAISE_M + bend * BEND_IN_M * part * part)
-        points[n, 0] = x + aside * part * (SIDE_IN_M + SIDE_OUT_M * outside)
+        within = min(max(aside * part * SIDE_IN_M, -profile[n, 3]), profile[n, 4])
+        freely = shift[0] + within
+        held = min(max(freely, -profile[n, 3]), profile[n, 4])
+        points[n, 0] = x + held + parted * (freely - held) + aside * part * SIDE_OUT_M * outside
         points[n, 1] = y + onto * (over + above * thick / half - y)
         points[n, 2] = z
