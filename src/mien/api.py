@@ -336,7 +336,7 @@ def perform(
     face: Face | str = DEFAULT_FACE,
     *,
     seed: int = 0,
-    style: Style | None = None,
+    style: Style | str | None = None,
     emotion: str | None = None,
     emotion_amount: float = 1.0,
     pose: Pose | None = None,
@@ -348,17 +348,18 @@ def perform(
         speech: what ``speak`` gave.
         face: a face or its address.
         seed: of blinks, small movements and brows.
-        style: how lively; None is the usual.
+        style: how lively: amounts, or a text as after ``--style``; None is the usual.
         emotion: a preset of the face that shows through.
         emotion_amount: how much of it, 0..1.
         pose: what the face looks like while nothing moves it; None is neutral.
         scene: where it is seen from; None is a slight three-quarter view.
     """
-    from .perform import Style
+    from .perform import load_style
     from .perform import perform as make
 
     face = load_face(face) if isinstance(face, str) else face
-    performance = make(speech, face, seed=seed, style=style or Style(), emotion=emotion, emotion_amount=emotion_amount)
+    manner = load_style(style or "") if style is None or isinstance(style, str) else style
+    performance = make(speech, face, seed=seed, style=manner, emotion=emotion, emotion_amount=emotion_amount)
     timeline = performance.timeline if pose is None else with_settings(performance.timeline, pose)
     return replace(performance, timeline=timeline, scene=scene or default_scene())
 
@@ -369,16 +370,17 @@ def say(
     *,
     voice: str | None = None,
     seed: int = 0,
-    style: Style | None = None,
+    style: Style | str | None = None,
     emotion: str | None = None,
     emotion_amount: float = 1.0,
     pose: Pose | None = None,
     scene: Scene | None = None,
 ) -> Performance:
     """A face that says a text: ``mien.say("Hello there.").write("hello.mp4")``."""
-    from .perform import check_emotion
+    from .perform import check_emotion, load_style
 
     face = load_face(face) if isinstance(face, str) else face
+    style = load_style(style) if isinstance(style, str) else style
     if emotion is not None:
         check_emotion(face, emotion, emotion_amount)
     speech = speak(text, voice)

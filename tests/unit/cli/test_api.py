@@ -49,6 +49,18 @@ def test_say_in_one_line_and_in_three_give_the_same_film(tmp_path: Path) -> None
     assert (tmp_path / "a.mp4").read_bytes() == (tmp_path / "b.mp4").read_bytes()
 
 
+def test_a_style_is_a_record_or_a_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    speech = mien.speak("Go.")
+    record, text = (
+        mien.perform(speech, "head", style=style).timeline.layers
+        for style in (mien.Style(jaw=0.5, blinks=0), "jaw=0.5,blinks=off")
+    )
+    assert [layer.tracks for layer in record] == [layer.tracks for layer in text]
+    monkeypatch.setattr(api, "speak", None)
+    with pytest.raises(mien.UnknownNameError, match="did you mean 'mumbling'"):
+        mien.say("Go.", style="mumble")
+
+
 def test_the_function_perform_and_the_package_perform_share_a_name() -> None:
     import mien.perform
 
