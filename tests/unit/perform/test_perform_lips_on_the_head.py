@@ -11,6 +11,7 @@ from mien.speech import Speech, strip_stress
 from support import lip_gap_mm
 
 HEAD = load_face("head")
+EMOTIONS = [name for name, preset in HEAD.presets.items() if preset.kind == "expression"]
 RATES = (12, 24000 / 1001, 24, 25, 30, 60)
 UPRIGHT = {"head.nod": 0.0, "head.turn": 0.0, "head.tilt": 0.0}
 SHUT_MM = 0.45
@@ -52,7 +53,7 @@ def gap_mm(values):
     return lip_gap_mm(subdivide(HEAD.shape(Pose(HEAD.parameters, values)), 2).points)
 
 
-@pytest.mark.parametrize("emotion", [name for name, preset in HEAD.presets.items() if preset.kind == "expression"])
+@pytest.mark.parametrize("emotion", EMOTIONS)
 @pytest.mark.parametrize("fps", RATES)
 def test_lips_are_shut_in_some_frame_of_every_p_b_m(fps, emotion):
     timeline = perform(speech(), HEAD, emotion=emotion).timeline
@@ -121,6 +122,19 @@ def test_lips_shut_between_round_sounds_too(fps, round_timeline):
             frame = round(cue.centre_s * fps) / fps
             values = round_timeline.values([frame], HEAD.parameters)[0]
             assert gap_mm(values) < ROUND_SHUT_MM, cue
+
+
+@pytest.mark.parametrize("emotion", EMOTIONS)
+def test_no_mood_frees_a_tucked_lip_or_parts_round_shut_ones(emotion):
+    timeline = perform(speech(ROUND_LINES), HEAD, emotion=emotion).timeline
+    rest = tuck_mm(upright(HEAD.neutral.values))[1]
+    for cue in timeline.phones:
+        if cue.symbol in ("F", "V", "M", "B"):
+            values = timeline.values([round(cue.centre_s * 24) / 24], HEAD.parameters)[0]
+            if cue.symbol in ("F", "V"):
+                assert tuck_mm(upright(values))[1] < rest - 3.0, cue
+            else:
+                assert gap_mm(values) < ROUND_SHUT_MM, cue
 
 
 STYLES = {name: parse_style(name) for name in named_styles()}
