@@ -202,13 +202,15 @@ def find_alphabet(symbols: Sequence[str]) -> Alphabet:
 @cache
 def _alphabets() -> tuple[Alphabet, ...]:
     labels = _read_labels()
-    # Capital letters among voices' IPA are one voice's own; so is the mark of a palatal consonant as a sound.
+    # Capital letters among voices' IPA are one voice's own.
     letters = {
-        letter: phones for letter, phones in read_ipa_table().items() if not letter.isascii() or letter.islower()
+        letter: phones
+        for letter, phones in read_ipa_table(units=True).items()
+        if phones and (not letter.isascii() or letter.islower())
     }
     own = {
         "arpabet": {phone: (phone,) for phone in PHONES} | labels["arpabet"],
-        "ipa": {letter: phones for letter, phones in letters.items() if letter != "ʲ"} | labels["ipa"],
+        "ipa": letters | labels["ipa"],
         "sampa": labels["sampa"],
     }
     return tuple(Alphabet(name, MappingProxyType(own[name])) for name in ALPHABETS)

@@ -1,4 +1,8 @@
-"""The alphabet of phones: ARPABET, as in the CMU Pronouncing Dictionary, and ``SIL``."""
+"""The alphabet of phones: ARPABET, as in the CMU Pronouncing Dictionary, what other languages have besides, ``SIL``.
+
+Phones beyond English are named in the same way: EC, OC (closed e and o, no glide follows), UE, UEH, OE, OEH (front rounded, as ü and ö),
+BH (Spanish lobo), HY (German ich), KH (Bach), GH (French rue), RR (Spanish perro), NY (agneau), LY (Italian figlio).
+"""
 
 from __future__ import annotations
 
@@ -10,10 +14,11 @@ from types import MappingProxyType
 
 from mien.core import SILENCE, MienError
 
-VOWELS = frozenset(["AA", "AE", "AH", "AO", "AW", "AY", "EH", "ER", "EY", "IH", "IY", "OW", "OY", "UH", "UW"])
+ENGLISH_VOWELS = frozenset(["AA", "AE", "AH", "AO", "AW", "AY", "EH", "ER", "EY", "IH", "IY", "OW", "OY", "UH", "UW"])
+VOWELS = ENGLISH_VOWELS | {"EC", "OC", "OE", "OEH", "UE", "UEH"}
 """Phones that carry a stress digit in a cue: ``AE1``."""
 
-CONSONANTS = frozenset(
+ENGLISH_CONSONANTS = frozenset(
     [
         "B",
         "CH",
@@ -41,6 +46,7 @@ CONSONANTS = frozenset(
         "ZH",
     ]
 )
+CONSONANTS = ENGLISH_CONSONANTS | {"BH", "GH", "HY", "KH", "LY", "NY", "RR"}
 
 STOPS = frozenset(["B", "CH", "D", "G", "JH", "K", "P", "T"])
 """Consonants that begin with a closed mouth and no sound, so that their beginning cannot be heard after a pause."""
@@ -74,24 +80,31 @@ def check_symbol(symbol: str, voice: str) -> None:
 
 
 @cache
-def read_ipa_table() -> Mapping[str, tuple[str, ...]]:
-    """ARPABET phones, without stress, of each IPA letter or pair of letters that voices write."""
+def read_ipa_table(language: str = "", *, units: bool = False) -> Mapping[str, tuple[str, ...]]:
+    """Phones, without stress, of each run of IPA letters; none where a letter is no sound of the mouth's own.
+
+    Args:
+        language: subtag like ``en`` whose own readings win; English has none but ARPABET's phones.
+        units: also with runs that are one sound only where they are written by themselves: ``aɪ``, ``tʃ``.
+    """
     text = resources.files(__package__).joinpath("data/ipa_to_arpabet.csv").read_text(encoding="utf-8")
-    lines = (line for line in text.splitlines() if not line.startswith("#"))
-    return MappingProxyType({row["ipa"]: tuple(row["arpabet"].split()) for row in csv.DictReader(lines)})
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    chosen = [row for wanted in ("", language) for row in rows if row["language"] == wanted and row["unit"] <= "1" * units]
+    return MappingProxyType({row["ipa"]: tuple(row["arpabet"].split()) for row in chosen})
 
 
-def convert_ipa(letters: str) -> list[tuple[str, int, int]]:
+def convert_ipa(letters: str, table: Mapping[str, tuple[str, ...]]) -> list[tuple[str, int, int]]:
     """Phones of IPA letters without stress marks: phone, first letter and the letter after its last one.
 
-    Pairs win over single letters (``ɜɹ`` is ER). Letters that the table does not have are left out. One letter can
-    be two phones, which then share it: both have its first and last place.
+    The longest run of the table wins (``ɜɹ`` is ER). Letters that the table does not have are left out. One letter
+    can be two phones, which then share it: both have its first and last place.
     """
-    table = read_ipa_table()
+    longest = max(map(len, table))
     found: list[tuple[str, int, int]] = []
     place = 0
     while place < len(letters):
-        width = 2 if letters[place : place + 2] in table and place + 2 <= len(letters) else 1
-        found += [(phone, place, place + width) for phone in table.get(letters[place : place + width], ())]
-        place += width
+        runs = (letters[place : place + width] for width in range(longest, 0, -1))
+        run = next((run for run in runs if run in table), letters[place])
+        found += [(phone, place, place + len(run)) for phone in table.get(run, ())]
+        place += len(run)
     return found

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mien.core import SILENCE, Cue
 
-from .phones import STOPS, VOWELS, convert_ipa, strip_stress
+from .phones import STOPS, VOWELS, convert_ipa, read_ipa_table, strip_stress
 
 STRESS_MARKS = {"ˈ": 1, "ˌ": 2}
 PAUSE_MARKS = frozenset('.,;:!?—…"“”()')
@@ -49,7 +49,7 @@ class TimedPhone:
 
 
 def time_phones(letters: Sequence[Letter], end: int) -> list[TimedPhone]:
-    """Phones and pauses in order, each ending where the next begins, the last at sample ``end``.
+    """Phones and pauses of English in order, each ending where the next begins, the last at sample ``end``.
 
     The time of a stress mark belongs to the vowel after it, that of a space or a length mark to the phone before it.
     """
@@ -85,7 +85,7 @@ def time_phones(letters: Sequence[Letter], end: int) -> list[TimedPhone]:
 
 def _share_letters(symbols: str, edges: Sequence[int]) -> Iterable[tuple[TimedPhone, int, int]]:
     """Phones of a word's letters with times, and the range of letters each came from."""
-    phones = convert_ipa(symbols)
+    phones = convert_ipa(symbols, read_ipa_table("en"))
     for number, (phone, first, stop) in enumerate(phones):
         sharers = [other for other, (_, start, _) in enumerate(phones) if start == first]
         step = (edges[stop] - edges[first]) // len(sharers)
