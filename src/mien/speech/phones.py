@@ -1,7 +1,8 @@
 """The alphabet of phones: ARPABET, as in the CMU Pronouncing Dictionary, what other languages have besides, ``SIL``.
 
-Phones beyond English are named in the same way: EC, OC (closed e and o, no glide follows), UE, UEH, OE, OEH (front rounded, as ü and ö),
-BH (Spanish lobo), HY (German ich), KH (Bach), GH (French rue), RR (Spanish perro), NY (agneau), LY (Italian figlio).
+Phones beyond English are named in the same way: EC, OC (closed e and o, without a glide), UE, UEH, OE, OEH (front
+rounded, as German ü and ö, long and short), BH (Spanish lobo), HY (German ich), KH (Bach), GH (French rue), RR
+(Spanish perro), NY (French agneau), LY (Italian figlio).
 """
 
 from __future__ import annotations
@@ -89,7 +90,9 @@ def read_ipa_table(language: str = "", *, units: bool = False) -> Mapping[str, t
     """
     text = resources.files(__package__).joinpath("data/ipa_to_arpabet.csv").read_text(encoding="utf-8")
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
-    chosen = [row for wanted in ("", language) for row in rows if row["language"] == wanted and row["unit"] <= "1" * units]
+    chosen = [
+        row for wanted in ("", language) for row in rows if row["language"] == wanted and row["unit"] <= "1" * units
+    ]
     return MappingProxyType({row["ipa"]: tuple(row["arpabet"].split()) for row in chosen})
 
 

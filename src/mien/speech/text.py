@@ -33,38 +33,6 @@ _SENTENCE_END = re.compile(r"[.!?…。！？]+[\"”’)\]»]*\s+(?=\S)")
 _SURROGATE = re.compile("[\ud800-\udfff]")  # what Python makes of bytes that are no UTF-8
 _CLAUSE_END = re.compile(r"[,;:—–][\"”’)\]»]*\s")
 _OPENING = "(\"“'‘[«"
-_TITLES = frozenset(
-    [
-        "Mr",
-        "Mrs",
-        "Ms",
-        "Dr",
-        "Prof",
-        "St",
-        "Mt",
-        "Ft",
-        "Gen",
-        "Gov",
-        "Sen",
-        "Rep",
-        "Capt",
-        "Lt",
-        "Col",
-        "Sgt",
-        "Rev",
-        "Hon",
-        "Fr",
-        "Adm",
-        "No",
-        "Nos",
-        "Fig",
-        "Vol",
-        "Ch",
-        "vs",
-        "approx",
-        "cf",
-    ]
-)
 _EDGE = '.,;:!?…"“”„«»()[]{}<>*_`~—–|'
 _APOSTROPHES = "'‘’"
 
@@ -95,10 +63,15 @@ class SpokenWord:
     skipped: tuple[str, ...]
 
 
-def split_passages(text: str) -> Iterator[Passage]:
-    """Passages of a text: at blank lines, line breaks, ends of sentences, and where a sentence is too long."""
+def split_passages(text: str, language: str = "en") -> Iterator[Passage]:
+    """Passages of a text: at blank lines, line breaks, ends of sentences, and where a sentence is too long.
+
+    Args:
+        text: any.
+        language: subtag like ``de``, whose abbreviations end no sentence.
+    """
     for block, begin, end, blank_follows in _join_wrapped_lines(text):
-        sentences = list(_split_sentences(block))
+        sentences = list(_split_sentences(block, language))
         for number, (first, last) in enumerate(sentences):
             final = number + 1 == len(sentences)
             pause = PARAGRAPH_PAUSE_S if final and blank_follows else SENTENCE_PAUSE_S
@@ -149,11 +122,11 @@ def _ends_with_mark(words: str) -> bool:
     return words.rstrip().rstrip("\"”’')]»")[-1:] in {".", "!", "?", "…", "。", "！", "？"}
 
 
-def _split_sentences(block: str) -> Iterator[tuple[int, int]]:
+def _split_sentences(block: str, language: str) -> Iterator[tuple[int, int]]:
     """First and last place of each sentence of a block."""
     start = 0
     for match in _SENTENCE_END.finditer(block):
-        if block[match.end()].islower() or _is_abbreviation(block, match):
+        if block[match.end()].islower() or _is_abbreviation(block, match, language):
             continue
         yield start, match.end()
         start = match.end()
@@ -161,12 +134,23 @@ def _split_sentences(block: str) -> Iterator[tuple[int, int]]:
         yield start, len(block)
 
 
-def _is_abbreviation(block: str, match: re.Match[str]) -> bool:
-    """Whether the full stop follows a title or an initial: ``Dr. Smith``, ``J. K. Rowling``."""
+def _is_abbreviation(block: str, match: re.Match[str], language: str) -> bool:
+    """Whether the full stop follows a title, an initial or an ordinal: ``Dr. Smith``, ``J. K. Rowling``, ``3. Mai``."""
     if not match.group().startswith(".") or match.group()[1:2] == ".":
         return False
     word = block[max(0, match.start() - 12) : match.start()].split(" ")[-1].lstrip(_OPENING)
-    return word in _TITLES or (len(word) == 1 and word.isupper() and word != "I")
+    word = "#" if word.isdecimal() and len(word) < 3 else word
+    return word in read_abbreviations(language) or (len(word) == 1 and word.isupper() and word != "I")
+
+
+@cache
+def read_abbreviations(language: str) -> Mapping[str, str]:
+    """What is said for words with a full stop that ends no sentence, if anything else; ``#`` is a short number."""
+    text = resources.files(__package__).joinpath("data/abbreviations.csv").read_text(encoding="utf-8")
+    lines = (line for line in text.splitlines() if not line.startswith("# "))
+    return MappingProxyType(
+        {row["word"]: row["spoken"] for row in csv.DictReader(lines) if row["language"] == language}
+    )
 
 
 def _split_long(block: str, first: int, last: int) -> Iterator[tuple[int, int]]:
@@ -216,6 +200,14 @@ def trim_word(word: str) -> str:
     if trimmed[:1] in _APOSTROPHES and trimmed[-1:] in _APOSTROPHES:
         trimmed = trimmed.strip(_APOSTROPHES).strip(_EDGE)
     return trimmed or word
+
+
+def must_sound(part: str) -> bool:
+    """Whether leaving this out would be noticed: it holds a letter, a digit or a sign, not only punctuation."""
+    return any(
+        unicodedata.category(character)[0] in "LN" or unicodedata.category(character) in {"Sc", "Sm", "So"}
+        for character in part
+    )
 
 
 def prepare_word(word: str, sayable: frozenset[str]) -> SpokenWord:

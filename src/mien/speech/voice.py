@@ -92,9 +92,10 @@ def voices() -> Mapping[str, Voice]:
     Raises:
         MienError: for a plug-in that returns something else.
     """
+    from .voice_espeak import find_espeak
     from .voice_hibari import find_hibari
 
-    found: list[Voice | None] = [find_hibari()]
+    found: list[Voice | None] = [find_hibari(), *find_espeak()]
     for entry in sorted(entry_points(group=ENTRY_POINT_GROUP), key=lambda entry: entry.name):
         try:
             voice = entry.load()()
@@ -113,13 +114,16 @@ def find_voice(name: str | None = None) -> Voice:
 
     Raises:
         UnknownNameError: for a name that no voice has.
-        MienError: when there is no voice at all.
+        MienError: when there is no voice at all, or what the named one needs is not installed.
     """
+    from .voice_espeak import check_installed
+
     known = voices()
     if not known:
         raise MienError("no voice is installed — try: pip install 'hibari-tts==0.2.1' onnxruntime")
     if name is None:
         return known.get(DEFAULT_VOICE) or next(iter(known.values()))
     if name not in known:
+        check_installed(name)
         raise UnknownNameError("voice", name, known)
     return known[name]

@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 
 from mien.core import SILENCE, MienError
 
-from .text import Passage, SpokenWord, match_words, prepare_word, split_passages, split_words, trim_word
+from .text import Passage, SpokenWord, match_words, must_sound, prepare_word, split_passages, split_words, trim_word
 from .voice import Utterance
 from .voice_hibari_model import HIBARI_VERSION, check_version, open_model
+from .voice_level import PEAK_LEVEL, set_level
 from .voice_times import PAUSE_MARKS, Letter, fit_pauses, time_phones, time_words, to_cues
 
 RATE_HZ = 24000
@@ -37,12 +38,6 @@ Measured on 12 sentences, 368 phones: median 60 ms against a forced alignment by
 steepest change of energy where a vowel meets a consonant. With it, the cues of 16 sentences, 494 phones, begin 15 ms
 from the alignment's (median), 96 % of them within 50 ms; the durations themselves come in steps of 25 ms.
 """
-
-SPEECH_LEVEL = 3276.8
-"""Root mean square of speech, of 32767 (-20 dB)."""
-
-PEAK_LEVEL = 29000.0
-"""Highest sample, of 32767 (just under -1 dB)."""
 
 LONGEST_NUMBER = 15
 """Digits of a number; a longer one is read digit by digit."""
@@ -122,7 +117,7 @@ class Engine:
             ]
             phones = fit_pauses(time_phones(marks, end), samples, RATE_HZ)
             yield Utterance(
-                samples=_set_level(samples, [(phone.start, phone.end) for phone in phones if phone.symbol != SILENCE]),
+                samples=set_level(samples, [(phone.start, phone.end) for phone in phones if phone.symbol != SILENCE]),
                 words=time_words(phones, reading.words, RATE_HZ),
                 phones=to_cues(phones, RATE_HZ),
                 skipped=reading.skipped if number == 1 else (),
@@ -144,7 +139,7 @@ class Engine:
             letters += kept + " "
             letter_owners += [owner] * (len(kept) + 1)
         for place, word in enumerate(prepared):
-            if place not in heard and word.spoken and any(_must_sound(part) for part in word.spoken):
+            if place not in heard and word.spoken and any(must_sound(part) for part in word.spoken):
                 skipped.append(word.written)
         if not heard:
             return _Reading("", (), (), tuple(skipped))
@@ -204,14 +199,6 @@ def _split_readings(pronounce: Any, words: Sequence[str]) -> list[str]:
     return readings
 
 
-def _must_sound(part: str) -> bool:
-    """Whether leaving this out would be noticed: it holds a letter, a digit or a sign, not only punctuation."""
-    return any(
-        unicodedata.category(character)[0] in "LN" or unicodedata.category(character) in {"Sc", "Sm", "So"}
-        for character in part
-    )
-
-
 def _tame(text: str, knows: Callable[[str], bool]) -> str:
     """Text without what hibari would misread or drop: links, money behind the number, endless numbers and words."""
     text = text.translate({ord("["): "(", ord("]"): ")"})
@@ -251,17 +238,6 @@ def _split_letters(letters: str, most: int) -> Iterator[tuple[int, int]]:
         first += cut
     if any(letter not in PAUSE_MARKS and letter != " " for letter in letters[first:]):
         yield first, len(letters)
-
-
-def _set_level(samples: NDArray[np.int16], spoken: Sequence[tuple[int, int]]) -> NDArray[np.int16]:
-    """Samples whose speech has the level all voices have, unless a peak would be cut."""
-    squares = sum(float((samples[first:last].astype(np.float64) ** 2).sum()) for first, last in spoken)
-    count = sum(last - first for first, last in spoken)
-    peak = int(np.abs(samples.astype(np.int32)).max(initial=0))
-    if not squares or not peak:
-        return samples
-    gain = min(SPEECH_LEVEL / (squares / count) ** 0.5, PEAK_LEVEL / peak)
-    return np.rint(samples * gain).astype(np.int16)
 
 
 _LOADING = threading.Lock()

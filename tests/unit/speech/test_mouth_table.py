@@ -1,6 +1,7 @@
 import pytest
 
 from mien.core import UnknownNameError
+from mien.speech import PHONES
 from mien.speech.mouth_table import BLENDED, HELD, bare, phone_sources, phone_table, stress
 
 VOWELS = ("AA", "AE", "AH", "AO", "AW", "AY", "EH", "ER", "EY", "IH", "IY", "OW", "OY", "UH", "UW")
@@ -13,8 +14,9 @@ def target(phone: str, channel: str) -> float:
     return phone_table()[phone].targets[BLENDED.index(channel)]
 
 
-def test_every_phone_of_arpabet_has_a_row_with_sources() -> None:
-    for phone in ARPABET:
+def test_every_phone_has_a_row_with_sources() -> None:
+    assert set(ARPABET) < PHONES
+    for phone in PHONES:
         row = phone_table()[phone]
         assert row.sources
         assert set(row.sources) <= set(phone_sources())
@@ -40,7 +42,26 @@ def test_vowels_open_in_the_order_of_lindblom_and_sundberg(wider: str, narrower:
     assert target(wider, "jaw") > target(narrower, "jaw")
 
 
-@pytest.mark.parametrize("tongue", ["T", "D", "N", "K", "G", "NG", "L", "HH"])
+@pytest.mark.parametrize(("front", "back"), [("UE", "UW"), ("UEH", "UH"), ("OE", "OC")])
+def test_front_rounded_vowels_are_round_and_protruded_beyond_back_ones(front: str, back: str) -> None:
+    assert target(front, "round") >= 0.6
+    assert target(front, "protrude") > target(back, "protrude")
+
+
+def test_closed_vowels_have_no_glide_and_lie_between_their_neighbours() -> None:
+    assert target("IY", "jaw") < target("EC", "jaw") < target("EH", "jaw")
+    assert target("UW", "jaw") < target("OC", "jaw") < target("AO", "jaw")
+    assert not {"EC+", "OC+"} & set(phone_table().index)
+
+
+def test_a_bilabial_that_does_not_shut_leaves_a_gap() -> None:
+    row = phone_table()["BH"]
+    assert row.hold == ""
+    assert 0.0 < target("BH", "lower_lip") <= 0.05
+    assert row.dominance[1] > phone_table()["AA"].dominance[1]
+
+
+@pytest.mark.parametrize("tongue", ["T", "D", "N", "K", "G", "NG", "L", "HH", "KH", "GH", "RR", "NY", "LY"])
 def test_lips_obey_any_vowel_rather_than_a_tongue_sound(tongue: str) -> None:
     lips = 1
     assert phone_table()[tongue].dominance[lips] <= 0.1 < 0.6 <= phone_table()["AH"].dominance[lips]

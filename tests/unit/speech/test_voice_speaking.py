@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from mien.core import Cue, MienError, UnknownNameError, sound_store
-from mien.speech import Speech, Utterance, Voice, find_voice, speak, voice, voices
+from mien.speech import Speech, Utterance, Voice, find_voice, speak, voice, voice_espeak, voices
 from mien.speech.speaking import LEAD_S, TAIL_S
 
 RATE = 1000
@@ -168,6 +168,7 @@ class Plug:
 def test_voices_are_those_that_are_present(monkeypatch: pytest.MonkeyPatch):
     plugs = [Plug("fake", Fake(())), Plug("absent", None), Plug("broken", ImportError("x"))]
     monkeypatch.setattr(voice, "entry_points", lambda group: plugs if group == "mien.voices" else [])
+    monkeypatch.setattr(voice_espeak, "find_installation", lambda: None)
     assert list(voices()) == ["hibari", "fake"]
     assert all(isinstance(each, Voice) for each in voices().values())
     assert find_voice().name == "hibari"
