@@ -29,7 +29,7 @@ JAW_MM = 20.0
 """Between the front teeth at a full jaw channel. Source: vocab/data/channels.head.csv."""
 SHAPE = ("jaw", "round", "spread")
 ROUNDED = ("W", "UW", "OW")
-SEEN = {"closure": 1.0, "tuck": 0.9}
+SEEN = {"closure": 1.0, "tuck": 1.0}
 
 
 @dataclass(frozen=True)
