@@ -18,8 +18,8 @@ from scipy.optimize import lsq_linear
 
 from mien.core import Cue, Pose, Sound, subdivide
 from mien.faces.head import Head
+from mien.faces.head.lips import CONTACT_STATIONS
 from mien.faces.head.measured import archive
-from mien.faces.head.mouth import CONTACT_STATIONS
 from mien.perform import parse_style, perform
 from mien.speech import Speech
 from mien.speech.mouth_table import bare, phone_table

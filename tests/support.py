@@ -15,8 +15,8 @@ from mien.compiling import Kernel
 from mien.core import Face, ParameterTable, Pose
 from mien.core.mesh import Points
 from mien.faces import face_names, load_face
+from mien.faces.head.lips import CONTACT_STATIONS
 from mien.faces.head.measured import archive
-from mien.faces.head.mouth import CONTACT_STATIONS
 
 ROOT = Path(__file__).parents[1]
 FACE_NAMES = tuple(name for name, _ in face_names())

@@ -120,6 +120,11 @@ class Archive:
         """Vertex number of each name of the left half, such as ``m0_5`` (ring m0, station 5: the mouth corner)."""
         return {str(name): number for number, name in enumerate(self.arrays["half_names"])}
 
+    def vertex_at(self, ring: str, station: int, side: int) -> int:
+        """Number of the vertex at a ring's station, on the left (0) or the right (1); the same on the midline."""
+        left = self.vertex[f"{ring}_{station}"]
+        return left if side == 0 else int(self.mirror[left])
+
     def ring(self, prefix: str, count: int) -> Ints:
         """(count,) left-half vertices ``prefix_0`` ...; raises UnknownNameError for a ring that is not there."""
         names = [f"{prefix}_{station}" for station in range(count)]

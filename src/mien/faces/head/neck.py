@@ -11,6 +11,7 @@ from mien.core.mesh import Points
 
 from .angles import turn
 from .measured import Floats
+from .vectors import unit
 
 PIVOT = (0.0, -0.085, -0.022)
 """Where the resting head turns on its neck, m."""
@@ -90,3 +91,27 @@ def turn_head(points, share, axes, angles, pivot, forward):
             part = share[v]
             x, y, z = turn_point(x, y, z, (turned * part, nodded * part, tilted * part))
             points[v, 0], points[v, 1], points[v, 2] = x + pivot[0], y + pivot[1], z + pivot[2] + part * forward
+
+
+@kernel()
+def scale_all(points, eyes, scale):
+    """Scale points (V, 3) m about the middle of the head, and the normals (E, 3) of both eyes to fit."""
+    for v in range(len(points)):
+        for axis in range(3):
+            points[v, axis] *= scale[axis]
+    for eye in eyes:
+        for v in range(len(eye)):
+            x, y, z = eye[v, 0] / scale[0], eye[v, 1] / scale[1], eye[v, 2] / scale[2]
+            eye[v, 0], eye[v, 1], eye[v, 2] = unit(x, y, z)
+
+
+@kernel()
+def turn_all(points, eyes, share, angles, pivot, forward):
+    """Turn points (V, 3) m on the neck by their share (V,) of the angles, and the normals (E, 3) of both eyes.
+
+    The head slides ``forward`` m as well.
+    """
+    axes = turn_axes(angles)
+    turn_head(points, share, axes, angles, pivot, forward)
+    for eye in eyes:
+        turn_directions(eye, axes)

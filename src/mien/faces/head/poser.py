@@ -17,6 +17,7 @@ from .brows import BrowStrips, brow_moves, brow_regions
 from .carrying import Carried, bind_to_skin
 from .conformation import Shaper, blend_moves, no_fields
 from .contact import ball_gaps, before_teeth
+from .controls import CONTROLS
 from .directions import directions
 from .eyes import band_steps, circle, spot_grid
 from .folds import fold_moves, folds_of
@@ -103,7 +104,7 @@ class Poser:
         strips: BrowStrips,
         lashes: Lashes,
     ) -> None:
-        self._columns = np.array([table.index[name] for name in posing.CONTROLS], dtype=np.int64)
+        self._columns = np.array([table.index[name] for name in CONTROLS], dtype=np.int64)
         self._moves = skin_moves(measured)
         self._folds = folds_of(archive, table, layout.skin, measured.kind)
         centres = eyes.balls[:, :3]

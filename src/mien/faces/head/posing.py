@@ -21,39 +21,48 @@ from mien.compiling import kernel
 from .brows import place_brows, shape_brow, sum_normals
 from .conformation import shape_held, shape_points
 from .contact import WAYS, give_way, keep_off_balls, lift_row, push_before, stretch_of, trace_rows
+from .controls import (
+    BROW_SHAPE,
+    CLOSURE,
+    CORNERS,
+    EYE_NOD,
+    EYE_TURN,
+    FORWARD,
+    FRINGE,
+    IRIS,
+    JAW,
+    JAW_FORWARD,
+    JAW_SIDE,
+    LIGHT,
+    NOD,
+    OFFSET,
+    OPENING,
+    PUPIL,
+    ROLLED,
+    SCALE,
+    SPOT,
+    TARGET,
+    THICKNESS,
+    TILT,
+    TIP,
+    TUCK,
+    TURN,
+    UPPER_LIP,
+    VIEWER,
+    WIDTH,
+)
 from .eyes import fill_radii, look_at, place_eye, place_spot
 from .folds import fold_skin
 from .jaw import carry_with_jaw, chin_shift, open_jaw
 from .lashes import place_caruncle, place_lashes
 from .lids import closing, elevation_deg, meet_lids, move_lids
-from .mouth import bridge_lips, close_lips, copy_rows, move_lips, seal_lips, stay_off_teeth, tuck_lip
-from .neck import turn_axes, turn_back, turn_directions, turn_head
+from .lips import bridge_lips, close_lips, seal_lips, stay_off_teeth
+from .mouth import copy_rows, move_lips, tuck_lip
+from .neck import scale_all, turn_all, turn_back
 from .planing import plane_skin
 from .shades import darken_eye, darken_mouth
 from .tongue import move_tongue
 from .units import DEG, MM
-from .vectors import unit
-
-SINGLE = (
-    *("jaw.rotation", "jaw.side", "jaw.forward", "mouth.width", "mouth.offset", "mouth.upper_lip", "mouth.tuck"),
-    *("mouth.closure", "tongue.raise", "tongue.out", "tongue.side", "tongue.up"),
-    *("head.turn", "head.nod", "head.tilt", "head.forward"),
-    *("head.scale.width", "head.scale.height", "head.scale.depth"),
-    *(f"{group}.{axis}" for group in ("target", "light", "viewer") for axis in "xyz"),
-    *("mouth.roll_upper", "mouth.roll_lower"),
-)
-PAIRED = (
-    *("mouth.corner.side", "mouth.corner.up", "mouth.corner.forward", "mouth.corner.width"),
-    *("eyelid.opening", "eye.turn", "eye.nod", "iris.size", "pupil.size", "fringe.size", "spot.size"),
-    *("eyebrow.thickness", "eyebrow.shape"),
-)
-CONTROLS = (*SINGLE, *(name + side for name in PAIRED for side in (".left", ".right")))
-"""Parameters that these mechanisms follow: a pose arrives as a row of their values, named by number below."""
-
-JAW, JAW_SIDE, JAW_FORWARD, WIDTH, OFFSET, UPPER_LIP, TUCK, CLOSURE, TIP = range(9)
-TURN, NOD, TILT, FORWARD, SCALE, TARGET, LIGHT, VIEWER, ROLLED, CORNERS = *range(12, 17), *range(19, 31, 3), 30
-OPENING, EYE_TURN, EYE_NOD, IRIS, PUPIL, FRINGE, SPOT, THICKNESS, BROW_SHAPE = range(38, 56, 2)
-"""Columns of ``CONTROLS``; of a pair, of a place, or of the tongue's tip the first."""
 
 EYE, SPOTS, CARUNCLE, LASH, BROW, BEARD, TEETH, GUMS, TONGUE, END = 0, 2, 4, 6, 8, 10, 11, 12, 13, 14
 """Where the first vertex of each part stands in a row of part starts; of a pair, the left one."""
@@ -226,32 +235,6 @@ def darken(parts, balls, lip_edge, points, colors):
     darken_mouth(colors[first:last], points[first:last], points[lip_edge, 1])
 
 
-@kernel()
-def scale_all(c, parts, points, normals):
-    """Scale ``points`` (V, 3) m about the middle of the head, and the ``normals`` of the eyes to fit."""
-    for v in range(len(points)):
-        for axis in range(3):
-            points[v, axis] *= c[SCALE + axis]
-    for side in range(2):
-        first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
-        for v in range(first, last):
-            x, y, z = normals[v, 0] / c[SCALE], normals[v, 1] / c[SCALE + 1], normals[v, 2] / c[SCALE + 2]
-            normals[v, 0], normals[v, 1], normals[v, 2] = unit(x, y, z)
-
-
-@kernel()
-def turn_all(parts, neck_share, angles, pivot, forward, points, normals):
-    """Turn ``points`` (V, 3) m on the neck by their share (V,) of the angles, and the ``normals`` of the eyes.
-
-    The head slides ``forward`` m as well.
-    """
-    axes = turn_axes(angles)
-    turn_head(points, neck_share, axes, angles, pivot, forward)
-    for side in range(2):
-        first, last = parts[EYE + side], parts[EYE + side] + parts[SPOTS] - parts[EYE]
-        turn_directions(normals[first:last], axes)
-
-
 @kernel("f8[:,:], i8[:], f8[:,:], f8[:,:]")
 def weigh_moves(values, columns, rules, weights):
     """Fill ``weights`` (N, M) with how much of each move is added in the poses ``values`` (N, P)."""
@@ -397,7 +380,9 @@ def pose_heads(
         place_hairs(c, skin, parts, held, lashes, brows, beard, under, scratch[0], out)
         if frame < len(colors):
             darken(parts, held, lip_edge, out, colors[frame])
-        if c[SCALE] != 1.0 or c[SCALE + 1] != 1.0 or c[SCALE + 2] != 1.0:
-            scale_all(c, parts, out, around)
+        scale, ball = (c[SCALE], c[SCALE + 1], c[SCALE + 2]), parts[SPOTS] - parts[EYE]
+        eyes = around[parts[EYE] : parts[EYE] + ball], around[parts[EYE + 1] : parts[EYE + 1] + ball]
+        if scale != (1.0, 1.0, 1.0):
+            scale_all(out, eyes, scale)
         if angles != (0.0, 0.0, 0.0) or c[FORWARD] != 0.0:
-            turn_all(parts, neck_share, angles, pivot, c[FORWARD] * MM, out, around)
+            turn_all(out, eyes, neck_share, angles, pivot, c[FORWARD] * MM)
