@@ -5,7 +5,7 @@ import pytest
 
 from mien.core import subdivide
 from mien.faces import load_face
-from mien.faces.head import lids, mouth
+from mien.faces.head import lids, lips
 from mien.faces.head.measured import archive
 from support import in_python, lip_gap_mm
 
@@ -65,26 +65,26 @@ def test_an_upper_lip_rolled_in_and_raised_stays_in_front_of_the_teeth(more):
 
 def torn_lips(held, lower_at):
     """Points of a pair, upper then lower, that a shape left so (m), once they are sealed."""
-    rings = len(mouth.CONTACT_RINGS)
+    rings = len(lips.CONTACT_RINGS)
     points = np.zeros((2 * rings, 3))
     points[rings:] = lower_at
-    shares = np.array(list(mouth.CONTACT_RINGS.values()))
+    shares = np.array(list(lips.CONTACT_RINGS.values()))
     numbers, touching = np.arange(2 * rings).reshape(1, 2, rings), np.array([[held, 0.0, 0.0, 0.0]])
-    in_python(mouth.seal_lips)(points, numbers, shares, touching)
+    in_python(lips.seal_lips)(points, numbers, shares, touching)
     return points[:rings], points[rings:]
 
 
 def test_a_lip_that_was_left_behind_comes_forward_and_the_other_one_stays():
     upper, lower = torn_lips(1.0, (0.0, 0.0, 0.001))
-    np.testing.assert_allclose(upper[:, 2], (0.001 - mouth.WHOLE_M) * np.array(list(mouth.CONTACT_RINGS.values())))
+    np.testing.assert_allclose(upper[:, 2], (0.001 - lips.WHOLE_M) * np.array(list(lips.CONTACT_RINGS.values())))
     np.testing.assert_allclose(lower[:, 2], 0.001)
 
 
 def test_inner_edges_of_torn_lips_reach_past_one_another_up_to_a_most():
-    for torn_m, lock_m in ((0.0011, 0.0015), (0.010, mouth.LOCK_M)):
+    for torn_m, lock_m in ((0.0011, 0.0015), (0.010, lips.LOCK_M)):
         upper, lower = torn_lips(1.0, (torn_m, 0.0, 0.0))
         reached = (lower - upper)[:, 1]
-        assert reached[mouth.INNER] == pytest.approx(lock_m)
+        assert reached[lips.INNER] == pytest.approx(lock_m)
         assert np.count_nonzero(reached) == 1
 
 
