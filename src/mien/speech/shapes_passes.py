@@ -83,9 +83,9 @@ def round_early(phones: Sequence[Cue], shapes: Sequence[str], table: ShapeTable)
 
 
 def hold(phones: Sequence[Cue], shapes: Sequence[str]) -> tuple[Piece, ...]:
-    """Pieces in which lips are held for p b m and f v as long as they are shut, then open for the next sound.
+    """Pieces in which lips are held for p b m and f v; those of p and b open with the burst for the next sound.
 
-    Lips that nothing follows but a pause stay as they are.
+    Where nothing follows but a pause there is no burst to be seen.
     """
     table = phone_table()
     out: list[Piece] = []
@@ -94,10 +94,10 @@ def hold(phones: Sequence[Cue], shapes: Sequence[str]) -> tuple[Piece, ...]:
         if not row.hold:
             out.append(Piece(cue.start_s, cue.end_s, shape))
             continue
-        follows = i + 1 < len(phones) and table[phones[i + 1].symbol].kind != "pause"
-        end_s = cue.start_s + row.hold_to * cue.length_s if follows else cue.end_s
+        bursts = row.kind == "stop" and i + 1 < len(phones) and table[phones[i + 1].symbol].kind != "pause"
+        end_s = cue.start_s + row.hold_to * cue.length_s if bursts else cue.end_s
         out.append(Piece(cue.start_s, end_s, shape, held=True))
-        if follows:
+        if bursts:
             out.append(Piece(end_s, cue.end_s, shapes[i + 1]))
     return join(out)
 

@@ -122,7 +122,11 @@ def test_labials_and_open_vowels_are_not_rounded() -> None:
 
 def test_lips_part_at_the_burst_but_stay_shut_before_a_pause() -> None:
     assert spell(hold(cues("P:100 AA1:100"), ["A", "D"])) == "A!:70 D:130"
-    assert spell(hold(cues("M:100 SIL:100"), ["A", "X"])) == "A!:100 X:100"
+    assert spell(hold(cues("P:100 SIL:100"), ["A", "X"])) == "A!:100 X:100"
+
+
+def test_m_and_f_have_no_burst() -> None:
+    assert spell(hold(cues("M:100 AA1:100 F:80 IY1:50"), list("ADGB"))) == "A!:100 D:100 G!:80 B:50"
 
 
 def test_two_closures_in_a_row_are_one() -> None:
