@@ -8,13 +8,15 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.core import MienError
+from mien.core import SILENCE, MienError
 
+from .hearing_edges import Span, sharpen
 from .hearing_sound import FRAME_S
 
 FRAME_CENTRE_S = 0.008
@@ -28,12 +30,12 @@ SEARCH: Mapping[str, Any] = {
     "bestpath": False,  # with it the pass that finds the phones fails now and then
     "topn": 2,
 }
-"""Options of every search. Only the two nearest densities are added up: a fifth less work, much the same boundaries."""
+"""Options of every search. Two of the nearest densities are added up, not four: a third less work, the same boundaries."""
 
 ALIGNMENT: Mapping[str, Any] = {"lm": None, "beam": 1e-120, "pbeam": 1e-120, "wbeam": 1e-80}
 """Options of the search for given words: nothing is given up, which in a chain of words costs little."""
 
-RECOGNITION: Mapping[str, Any] = {"fwdflat": False, "maxhmmpf": 3000}
+RECOGNITION: Mapping[str, Any] = {"fwdflat": False, "maxhmmpf": 1500}
 """Options of the search without a text: one pass, and no more than so many models at a time."""
 
 _VARIANT = re.compile(r"\(\d+\)$")
@@ -170,17 +172,25 @@ def _search(decoder: Any, samples: NDArray[np.int16]) -> list[FoundWord] | None:
     # A second pass, over the words of the first; to ask it for a hypothesis would crash.
     decoder.set_alignment()
     _feed(decoder, samples)
-    found = []
-    for word in decoder.get_alignment().words():
-        if word.name in _FILLERS:
+    # The entries are not to be kept: each is gone when the next one is asked for.
+    words: list[tuple[str, int, float]] = []
+    spans: list[Span] = []
+    for entry in decoder.get_alignment().words():
+        if entry.duration <= 0:
             continue
-        phones = tuple(
-            FoundPhone(
-                phone.name,
-                phone.start * FRAME_S + FRAME_CENTRE_S,
-                (phone.start + phone.duration) * FRAME_S + FRAME_CENTRE_S,
-            )
-            for phone in word
-        )
-        found.append(FoundWord(_VARIANT.sub("", word.name), phones, -word.score / word.duration))
-    return found
+        spelling, score = "" if entry.name in _FILLERS else _VARIANT.sub("", entry.name), -entry.score / entry.duration
+        parts = [_to_span(phone.name, phone) for phone in entry] if spelling else [_to_span(SILENCE, entry)]
+        words.append((spelling, len(parts), score))
+        spans += parts
+    phones = iter([FoundPhone(*span) for span in sharpen(spans, samples)])
+    found = [(spelling, tuple(islice(phones, count)), score) for spelling, count, score in words]
+    return [FoundWord(*word) for word in found if word[0]]
+
+
+def _to_span(symbol: str, entry: Any) -> Span:
+    return symbol, _edge_s(entry.start), _edge_s(entry.start + entry.duration)
+
+
+def _edge_s(frame: int) -> float:
+    """Where a frame begins to be more of what is heard than the one before it, seconds."""
+    return frame * FRAME_S + FRAME_CENTRE_S if frame else 0.0

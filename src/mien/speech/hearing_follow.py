@@ -43,6 +43,8 @@ LEAST_AGREEMENT = 0.3
 MOST_QUOTED = 8
 """Words in a message."""
 
+LONGEST_PHONE_S = 1.5
+
 Report = Callable[[float], None]
 
 
@@ -68,6 +70,11 @@ def count_finished(words: Sequence[FoundWord], piece: tuple[float, float], sound
     """How many words of a piece are over when it ends; all where it has but one, so that there is progress."""
     cut = len(words) > 1 and words[-1].end_s > piece[1] - UNFINISHED_S and piece[1] < sound.length_s - UNFINISHED_S
     return len(words) - cut
+
+
+def is_spoken(word: FoundWord) -> bool:
+    """Whether a word that was recognised can be one: no sound of speech lasts as long as hum or noise may."""
+    return max(phone.end_s - phone.start_s for phone in word.phones) < LONGEST_PHONE_S
 
 
 def mean_score(words: Sequence[FoundWord]) -> float:
@@ -135,7 +142,7 @@ class Follower:
     ) -> list[HeardWord]:
         """What is heard in a piece that does not hold the words ahead: as much of them as possible, and the rest."""
         self._recogniser = self._recogniser or Recogniser()
-        heard = self._recogniser.recognise(samples)
+        heard = [word for word in self._recogniser.recognise(samples) if is_spoken(word)]
         if not heard:
             return []  # noise or music: the text goes on after it
         spellings = [word.spelling for word in heard]
