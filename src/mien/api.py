@@ -24,7 +24,7 @@ from .core import (
 )
 from .formats.notes import notes
 from .formats.performances import PUPPET_SCENE, default_threads
-from .timeline import Layer, Rate, Timeline, Track
+from .timeline import Rate, with_settings
 
 if TYPE_CHECKING:
     from .formats.glb import Puppet
@@ -36,9 +36,6 @@ if TYPE_CHECKING:
     from .speech.speaking import Report
 
 DEFAULT_FACE = "head"
-
-SETTINGS = "settings"
-"""Name of the lowest layer of a timeline: what the face looks like while nothing moves it."""
 
 
 KERNELS = (
@@ -302,13 +299,17 @@ def sheet(
 def speak(text: str, voice: str | None = None, *, report: Report | None = None) -> Speech:
     """The text said by a voice: sound, words and phones with their times, and what could not be said.
 
+    Marks such as ``[smile]`` and ``<break time="500ms"/>`` are not said but kept for ``perform``.
+
     Raises:
-        MienError: there is nothing to say.
+        MienError: there is nothing to say, or a mark cannot be understood.
         UnknownNameError: there is no such voice.
     """
+    from .perform import parse_marks
     from .speech import speak
 
-    return speak(text, voice, report=report)
+    marked = parse_marks(text)
+    return replace(speak(marked.text, voice, pauses=marked.pauses, report=report), script=text)
 
 
 def hear(path: Path | str, text: str | None = None, *, report: Report | None = None) -> Speech:
@@ -318,7 +319,7 @@ def hear(path: Path | str, text: str | None = None, *, report: Report | None = N
 
     Args:
         path: WAV, MP3, OGG, FLAC, M4A, a film.
-        text: what is said; without it the words are recognised, less surely.
+        text: what is said, with marks if you like; without it the words are recognised, less surely.
         report: told (seconds done, seconds in all, what is being done).
 
     Raises:
@@ -326,9 +327,13 @@ def hear(path: Path | str, text: str | None = None, *, report: Report | None = N
         MienError: no word is heard, or another text than the given one.
     """
     from .formats.sound_files import read_sound
+    from .perform import parse_marks
     from .speech import hear
 
-    return hear(read_sound(path), text, report=report).speech
+    sound = read_sound(path)
+    if text is None:
+        return hear(sound, report=report).speech
+    return replace(hear(sound, parse_marks(text).text, report=report).speech, script=text)
 
 
 def perform(
@@ -376,13 +381,17 @@ def say(
     pose: Pose | None = None,
     scene: Scene | None = None,
 ) -> Performance:
-    """A face that says a text: ``mien.say("Hello there.").write("hello.mp4")``."""
-    from .perform import check_emotion, load_style
+    """A face that says a text: ``mien.say("Hello there. [smile] How *are* you?").write("hello.mp4")``.
+
+    The guide lists the marks that a text can have.
+    """
+    from .perform import check_emotion, check_marks, load_style, parse_marks
 
     face = load_face(face) if isinstance(face, str) else face
     style = load_style(style) if isinstance(style, str) else style
     if emotion is not None:
         check_emotion(face, emotion, emotion_amount)
+    check_marks(parse_marks(text), face)
     speech = speak(text, voice)
     return perform(
         speech, face, seed=seed, style=style, emotion=emotion, emotion_amount=emotion_amount, pose=pose, scene=scene
@@ -435,14 +444,3 @@ def _posed_mesh(face: Face, pose: Pose, scene: Scene) -> Mesh:
     if isinstance(shape, Drawing):
         raise MienError(f"{face.name}: is a flat drawing and has no mesh — write it as .svg")
     return shape
-
-
-def with_settings(timeline: Timeline, pose: Pose) -> Timeline:
-    """The timeline with what a pose changes as its lowest layer; everything else acts on top of it."""
-    before = {layer.name: layer for layer in timeline.layers}.get(SETTINGS)
-    tracks = {
-        **(before.tracks if before else {}),
-        **{name: Track.from_keys([0.0], [value], name=name) for name, value in pose.changed().items()},
-    }
-    others = tuple(layer for layer in timeline.layers if layer.name != SETTINGS)
-    return replace(timeline, layers=(Layer(SETTINGS, "replace", tracks), *others)) if tracks else timeline

@@ -21,26 +21,23 @@ def hear_file(audio: Path, text: str | None, cues: Path | None, stages: Stages) 
 
     Args:
         audio: a sound file or a film.
-        text: a transcript as commands take it: itself, ``@FILE`` or ``-``.
+        text: what is said in it; None where nobody knows.
         cues: times that were corrected by hand.
         stages: told what is going on.
     """
     from mien.formats.sound_files import read_sound
     from mien.speech import Heard, Speech, hear
 
-    from .settings import read_text
-
-    transcript = None if text is None else read_text(text)
     with stages.progress("reading") as report:
         sound = read_sound(audio, report=report)
     if cues is not None:
-        speech = take_cues(Speech(transcript or "", sound, (), (), (), ""), cues)
+        speech = take_cues(Speech(text or "", sound, (), (), (), ""), cues)
         return Heard(speech, (1.0,) * len(speech.words), ())
     with stages.progress("listening") as report:
-        heard = hear(sound, transcript, report=lambda done, total, doing: report(done, total))
+        heard = hear(sound, text, report=lambda done, total, doing: report(done, total))
     for notice in heard.notices:
         stages.say(f"{audio}: {notice}")
-    if transcript is None:
+    if text is None:
         stages.say(f"heard: {heard.speech.text}")
     unsure = [
         f"{word.symbol!r} at {word.start_s:.1f} s"

@@ -67,8 +67,9 @@ def lipsync(
     shape_table(shapes)
     if out is not None:
         check_cue_file(out, layout)
+    transcript = None if text is None else settings.read_text(text)
     stages = Stages(quiet)
-    heard = hear_file(audio, text, cues, stages)
+    heard = hear_file(audio, transcript, cues, stages)
     if out is not None:
         speech = heard.speech
         tiers = {WORDS: speech.words, PHONES: speech.phones, SHAPES: shapes_of(speech.phones, shapes)}

@@ -57,6 +57,7 @@ def play(
     from mien.formats.atomic import check_file
     from mien.formats.performances import BURN, usual_scene
     from mien.formats.table import find_format
+    from mien.timeline import with_settings
 
     from . import settings
     from .listing import show
@@ -91,7 +92,7 @@ def play(
         cosine_power=cosine_power,
     )
     pose = settings.make_pose(performance.face, values, preset, units, mix, person)
-    performance = replace(performance, scene=scene, timeline=api.with_settings(performance.timeline, pose))
+    performance = replace(performance, scene=scene, timeline=with_settings(performance.timeline, pose))
     rate = wanted or performance.timeline.fps or DEFAULT_FPS
     if out is not None:
         kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -86,7 +87,7 @@ def say(
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
     from mien.formats.performances import HEARD, usual_scene
-    from mien.perform import check_emotion, listen, load_style
+    from mien.perform import check_emotion, check_marks, listen, load_style, parse_marks
 
     from . import settings
     from .writing import write
@@ -116,12 +117,16 @@ def say(
         check_face(subject)
     pose = settings.make_pose(subject, values, preset, units, mix, person)
     check_source(text, voice, audio, transcript)
+    written = text if audio is None else transcript
+    script = None if written is None else settings.read_text(written)
+    if script is not None:
+        check_marks(parse_marks(script), subject)
     mood, amount = settings.parse_emotion(emotion)
     if mood is not None:
         check_emotion(subject, mood, amount)
     manner = load_style(style)
     stages = Stages(quiet)
-    speech = find_speech(text, voice, audio, transcript, cues, stages)
+    speech = find_speech(script, voice, audio, cues, stages)
     if kind in HEARD:
         performance = listen(speech, subject)
     else:
@@ -161,20 +166,18 @@ def check_source(text: str | None, voice: str | None, audio: Path | None, transc
         raise MienError(f"--voice {voice}: the recording {audio} has its own — leave one of them out")
 
 
-def find_speech(
-    text: str | None, voice: str | None, audio: Path | None, transcript: str | None, cues: Path | None, stages: Stages
-) -> Speech:
+def find_speech(script: str | None, voice: str | None, audio: Path | None, cues: Path | None, stages: Stages) -> Speech:
     """What the face says: a text by a voice, or a recording; with the times of a file of cues where there is one."""
     from mien import api
+    from mien.perform import parse_marks
 
-    from . import settings
     from .hearing import hear_file, take_cues
 
     if audio is not None:
-        return hear_file(audio, transcript, cues, stages).speech
-    words = settings.read_text(text or "")
+        text = None if script is None else parse_marks(script).text
+        return replace(hear_file(audio, text, cues, stages).speech, script=script or "")
     with stages.progress("speaking") as report:
-        speech = api.speak(words, voice, report=lambda done, total, doing: report(done, total))
+        speech = api.speak(script or "", voice, report=lambda done, total, doing: report(done, total))
     if speech.skipped:
         stages.say(f"not spoken, because the voice {speech.voice!r} cannot: {' '.join(speech.skipped)}")
     return speech if cues is None else take_cues(speech, cues)

@@ -147,7 +147,7 @@ def _find_pieces(words: Sequence[Cue], text: str) -> list[_Piece]:
     number, place = 0, 0  # of the spot that is next, and the character behind the last word
     pieces: list[_Piece] = []
     for word in words:
-        at = _find(text, word.symbol, place)
+        at = find_word(text, word.symbol, place)
         if at < 0:
             pieces.append(_Piece(word.symbol, word.start_s, word.end_s))
             continue
@@ -168,7 +168,7 @@ def _find_pieces(words: Sequence[Cue], text: str) -> list[_Piece]:
     return pieces
 
 
-def _find(text: str, word: str, place: int) -> int:
+def find_word(text: str, word: str, place: int) -> int:
     """Where the word stands next, as a whole word if it does so anywhere near; -1 if it does not stand there at all."""
     end = place + len(word) + _WINDOW
     first = at = text.find(word, place, end)

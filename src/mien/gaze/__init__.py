@@ -5,5 +5,17 @@ from .blinks import blinks
 from .brows import brow_raises
 from .eyes import saccades
 from .head import head_sway, nods
+from .looks import Glance, look_directions, looks
 
-__all__ = ["Accent", "blinks", "brow_raises", "find_accents", "head_sway", "nods", "saccades"]
+__all__ = [
+    "Accent",
+    "Glance",
+    "blinks",
+    "brow_raises",
+    "find_accents",
+    "head_sway",
+    "look_directions",
+    "looks",
+    "nods",
+    "saccades",
+]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib import resources
+from types import MappingProxyType
 
 from mien.core import SILENCE, Cue
 from mien.core.chance import stream
@@ -18,6 +19,8 @@ LEAST_APART_S = 0.55
 SECOND = 0.45
 """Chance of an accent on a content word that is not the strongest of its phrase: our choice."""
 
+NOTHING: Mapping[Cue, float] = MappingProxyType({})
+
 MARKS = ".,;:!?\"'()[]«»“”‘’…—-"
 
 
@@ -29,11 +32,13 @@ class Accent:
         time_s: middle of the vowel.
         strength: 0..1; 1 for the strongest word of its phrase.
         word: as written.
+        wanted: somebody asked for it, and chance has no say.
     """
 
     time_s: float
     strength: float
     word: str
+    wanted: bool = False
 
 
 @dataclass(frozen=True)
@@ -43,15 +48,23 @@ class _Candidate:
     weight: float
 
 
-def find_accents(words: Sequence[Cue], phones: Sequence[Cue], seed: int) -> tuple[Accent, ...]:
-    """Accented words: the longest content word of each phrase, and some of the others by chance.
+def find_accents(
+    words: Sequence[Cue], phones: Sequence[Cue], seed: int, stressed: Mapping[Cue, float] = NOTHING
+) -> tuple[Accent, ...]:
+    """Accented words: the longest content word of each phrase, some of the others by chance, and those asked for.
 
-    Words such as *the* and *of* are never accented.
+    Words such as *the* and *of* are accented only when asked for.
+
+    Args:
+        words: cues of the words.
+        phones: cues of the phones.
+        seed: of the choice among words.
+        stressed: words asked for, with their strength.
 
     Source: content words carry the accents of English (Ladefoged 2006, chapter 5); the choice among them is ours.
     """
     chance = stream(seed, "accents")
-    candidates = _candidates(words, phones)
+    candidates = _candidates(words, phones, stressed)
     strongest: dict[int, _Candidate] = {}
     for candidate in candidates:
         best = strongest.get(candidate.phrase)
@@ -61,11 +74,13 @@ def find_accents(words: Sequence[Cue], phones: Sequence[Cue], seed: int) -> tupl
     for candidate in candidates:
         lucky, strength = chance.random() < SECOND, 0.35 + 0.4 * chance.random()
         chief = strongest[candidate.phrase] is candidate
-        if not (chief or lucky):
+        accent = candidate.accent
+        if not (chief or lucky or accent.wanted):
             continue
-        accent = Accent(candidate.accent.time_s, 1.0 if chief else strength, candidate.accent.word)
+        if not accent.wanted:
+            accent = replace(accent, strength=1.0 if chief else strength)
         if out and accent.time_s - out[-1].time_s < LEAST_APART_S:
-            if accent.strength <= out[-1].strength:
+            if (accent.wanted, accent.strength) <= (out[-1].wanted, out[-1].strength):
                 continue
             out.pop()
         out.append(accent)
@@ -79,7 +94,7 @@ def function_words() -> frozenset[str]:
     return frozenset(word for line in text.splitlines() if not line.startswith("#") for word in line.split())
 
 
-def _candidates(words: Sequence[Cue], phones: Sequence[Cue]) -> list[_Candidate]:
+def _candidates(words: Sequence[Cue], phones: Sequence[Cue], stressed: Mapping[Cue, float]) -> list[_Candidate]:
     out: list[_Candidate] = []
     place = phrase = 0
     begun_s = 0.0
@@ -95,7 +110,10 @@ def _candidates(words: Sequence[Cue], phones: Sequence[Cue]) -> list[_Candidate]
             inside.append(phones[place])
             place += 1
         vowel = _stressed_vowel(inside)
-        if vowel is not None and word.symbol.strip(MARKS).lower() not in function_words():
+        if word in stressed:
+            accent = Accent((vowel or word).centre_s, stressed[word], word.symbol, wanted=True)
+            out.append(_Candidate(accent, phrase, word.length_s))
+        elif vowel is not None and word.symbol.strip(MARKS).lower() not in function_words():
             out.append(_Candidate(Accent(vowel.centre_s, 0.0, word.symbol), phrase, word.length_s))
     return out
 

@@ -11,6 +11,7 @@ from .accents import Accent
 from .curves import pulses
 
 RAISE = (0.3, 0.75)
+WANTED = 0.6  # at least, where somebody asked for stress
 UP_S = 0.20
 DOWN_S = 0.42
 """A brow begins to rise before the accented word and is highest in it.
@@ -28,9 +29,11 @@ def brow_raises(accents: Sequence[Accent], length_s: float, seed: int) -> Track:
     chance = stream(seed, "brows")
     shapes = []
     for accent in accents:
-        height, wanted = between(chance, *RAISE), chance.random() < FIRST + LATER * (accent.strength - 0.5)
+        height, lucky = between(chance, *RAISE), chance.random() < FIRST + LATER * (accent.strength - 0.5)
         hold = between(chance, 0.04, 0.12)
-        if wanted:
+        if accent.wanted:
+            height = max(height, WANTED)
+        if lucky or accent.wanted:
             height *= 0.5 + 0.5 * accent.strength
             start = max(0.0, accent.time_s - UP_S)
             top = max(accent.time_s, start + 0.1)

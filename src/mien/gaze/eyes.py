@@ -39,20 +39,29 @@ def saccade_length_s(amplitude_deg: float) -> float:
     return 0.021 + 0.0022 * amplitude_deg
 
 
-def saccades(length_s: float, seed: int, phones: Sequence[Cue] = ()) -> dict[str, Track]:
+def saccades(
+    length_s: float, seed: int, phones: Sequence[Cue] = (), rests: Sequence[tuple[float, float]] = ()
+) -> dict[str, Track]:
     """Tracks of ``eye_turn`` and ``eye_nod``, degrees: rests with quick ways between; 0 is straight at the viewer.
 
     Args:
         length_s: for how long.
         seed: of the generator; the same seed looks alike.
         phones: what is said; the eyes leave the viewer only while something is.
+        rests: (from, to) s, in order; meanwhile the eyes are on the viewer and hold still.
     """
     chance = stream(seed, "saccades")
     spoken = [cue for cue in phones if cue.symbol != SILENCE]
     keys = [(0.0, 0.0, 0.0)]
     away = False
     moment = between(chance, *FIXATION_S)
+    coming = list(rests)
     while moment < length_s - SETTLE_S - 0.1:
+        if coming and coming[0][0] <= moment:
+            start_s, end_s = coming.pop(0)
+            keys += _saccade(keys[-1], max(start_s, keys[-1][0]), (0.0, 0.0))
+            moment, away = max(end_s, keys[-1][0]), False
+            continue
         wanted = chance.random() < AWAY
         away = wanted and not away and bool(spoken) and spoken[0].start_s < moment < spoken[-1].end_s - 0.4
         keys += _saccade(keys[-1], moment, _look_away(chance) if away else _look_at_viewer(chance))

@@ -19,6 +19,7 @@ SWAY_S = (1.1, 2.6)
 SETTLE_S = 0.6
 
 NOD_DEG = (1.2, 3.0)
+WANTED_DEG = 2.6  # at least, where somebody asked for stress
 NOD_DOWN_S = 0.16
 NOD_UP_S = 0.34
 NOD_LAG_S = 0.05
@@ -53,8 +54,10 @@ def nods(accents: Sequence[Accent], length_s: float, seed: int) -> Track:
     chance = stream(seed, "nods")
     shapes = []
     for accent in accents:
-        depth, wanted = between(chance, *NOD_DEG), chance.random() < 0.35 + 0.5 * accent.strength
-        if wanted:
+        depth, lucky = between(chance, *NOD_DEG), chance.random() < 0.35 + 0.5 * accent.strength
+        if accent.wanted:
+            depth = max(depth, WANTED_DEG)
+        if lucky or accent.wanted:
             lowest = accent.time_s + NOD_LAG_S
             start = max(0.0, lowest - NOD_DOWN_S)
             shapes.append(([start, lowest, lowest + NOD_UP_S], [0.0, -depth * (0.5 + 0.5 * accent.strength), 0.0]))

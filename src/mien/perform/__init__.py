@@ -1,20 +1,26 @@
 """Speech and the life around it as one timeline: what a face does while it says something."""
 
 from .corrected import correct, cues_for_speech
-from .performance import Performance, check_emotion, listen, perform
+from .expressions import check_emotion, check_marks
+from .marks import MarkedText
+from .marks_reader import parse_marks
+from .performance import Performance, listen, perform
 from .style import NamedStyle, Style, named_styles, parse_style, style_table
 from .style_files import load_style, read_style
 
 __all__ = [
+    "MarkedText",
     "NamedStyle",
     "Performance",
     "Style",
     "check_emotion",
+    "check_marks",
     "correct",
     "cues_for_speech",
     "listen",
     "load_style",
     "named_styles",
+    "parse_marks",
     "parse_style",
     "perform",
     "read_style",

@@ -2,37 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mien.core import Face, ParameterTable, RangeError, Scene, Sound, UnknownNameError
-from mien.gaze import blinks, brow_raises, find_accents, head_sway, nods, saccades
+from mien.core import Face, Scene, Sound
+from mien.gaze import blinks, brow_raises, find_accents, head_sway, looks, nods, saccades
 from mien.speech import Speech
-from mien.speech.mouth import MOUTH_CHANNELS, articulate
+from mien.speech.mouth import articulate
 from mien.timeline import Layer, Timeline, Track
 from mien.vocab import Remap, load_remap, weigh
 
+from .directions import Directions, follow_marks
+from .expressions import check_marks, express
+from .marks import MarkedText
+from .marks_reader import parse_marks
 from .style import Style
 
 USUAL = Style()
 
 VOCABULARY = "channels"
-
-EASE_S = 0.6
-"""An emotion comes and goes in this time, or in a third of a short text."""
-
-SPOKEN_SHARE = 0.45
-"""Part of an emotion that is left in parameters that the mouth needs for speaking.
-
-A laugh keeps its smile, its cheeks and its eyes, but not all of its open jaw; otherwise words drown in it.
-"""
-
-SCENE_GROUPS = ("target", "viewer", "light")
-"""Rows that the scene fills in; an emotion that moved one of them would make the eyes leave the viewer with a jerk."""
 
 TITLE_LENGTH = 80
 
@@ -76,20 +68,22 @@ def perform(
 ) -> Performance:
     """What a face does while it says something, as a timeline of named layers, with the sound.
 
-    Layers, lowest first: ``idle`` (sway), ``gaze`` (glances), ``expression`` (the emotion), ``speech`` (mouth, nods,
-    brows) are added up; ``shut`` multiplies, so that blinks shut the eyes and p, b, m the lips whatever lies beneath;
-    ``direct`` is free for what is set by hand.
+    Marks in the script of the speech (``parse_marks``) are followed.
+
+    Layers, lowest first: ``idle`` (sway), ``gaze`` (glances and looks), ``expression`` (emotion, marks), ``speech``
+    (mouth, nods, brows) are added up; ``shut`` multiplies, so that blinks shut the eyes and p, b, m the lips whatever
+    lies beneath; ``direct`` is free for what is set by hand.
 
     Args:
-        speech: words, phones and sound.
+        speech: words, phones and sound, with the script where it has marks.
         face: of a family that the table ``channels`` exists for.
         seed: of everything that chance decides; the same seed gives the same bits.
         style: how lively.
-        emotion: a preset of the kind ``expression``, eased in and out.
+        emotion: a preset of the kind ``expression``, eased in and out; a mark of an expression takes its place.
         emotion_amount: how much of it, 0..1.
 
     Raises:
-        MienError: the face is of a family that cannot be played.
+        MienError: the face is of a family that cannot be played, or a mark cannot be understood.
         UnknownNameError: the face has no such expression.
         RangeError: there is no such amount.
     """
@@ -98,11 +92,15 @@ def perform(
     length_s = voiced.timeline.length_s
     lids = _lids(speech, length_s, seed, style)
     mouth = articulate(speech.phones, style)
-    moved = {**mouth, **_accents(speech, length_s, seed, style)}
+    marked = parse_marks(speech.script) if speech.script else MarkedText(speech.text)
+    check_marks(marked, face)
+    directions = follow_marks(marked, speech.words, length_s)
+    moved = {**mouth, **_accents(speech, directions, length_s, seed, style)}
+    expression = express(face, remap, directions.expressions, length_s, emotion=emotion, amount=emotion_amount)
     layers = (
         Layer("idle", "add", _play(remap, {**_sway(length_s, seed, style), **lids})),
-        Layer("gaze", "add", _play(remap, _glances(speech, length_s, seed, style))),
-        Layer("expression", "add", _expression(face, remap, emotion, emotion_amount, length_s)),
+        Layer("gaze", "add", _play(remap, _gaze(speech, directions, length_s, seed, style))),
+        Layer("expression", "add", expression),
         Layer("speech", "add", _play(remap, moved)),
         Layer("shut", "multiply", _shut(remap, {**mouth, **lids})),
         Layer("direct", "replace", {}),
@@ -120,20 +118,6 @@ def listen(speech: Speech, face: Face) -> Performance:
     return Performance(timeline, face, speech.sound)
 
 
-def check_emotion(face: Face, emotion: str, amount: float = 1.0) -> None:
-    """Nothing, when the face has such an expression, and there can be so much of it.
-
-    Raises:
-        UnknownNameError: it has none of that name.
-        RangeError: the amount is not in 0..1.
-    """
-    expressions = [name for name, preset in face.presets.items() if preset.kind == "expression"]
-    if emotion not in expressions:
-        raise UnknownNameError(f"emotion of {face.name!r}", emotion, expressions)
-    if not 0.0 <= amount <= 1.0:
-        raise RangeError(f"emotion {emotion!r}: {amount:g} is out of range — it goes from 0 to 1")
-
-
 def _lids(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
     return blinks(length_s, seed, speech.phones, often=style.blinks) if style.blinks else {}
 
@@ -142,12 +126,17 @@ def _sway(length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
     return _scaled(head_sway(length_s, seed), style.head)
 
 
-def _glances(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
-    return _scaled(saccades(length_s, seed, speech.phones), style.gaze)
+def _gaze(speech: Speech, directions: Directions, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
+    """What the eyes do by themselves, and over it the looks that were asked for, whatever the style."""
+    rests = [(glance.start_s, glance.end_s) for glance in directions.glances]
+    idle = _scaled(saccades(length_s, seed, speech.phones, rests), style.gaze)
+    asked = looks(directions.glances, length_s, seed)
+    both = {name: weigh([(1.0, idle[name]), (1.0, asked[name])], name=name) for name in idle.keys() & asked.keys()}
+    return {**idle, **asked, **both}
 
 
-def _accents(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
-    accents = find_accents(speech.words, speech.phones, seed)
+def _accents(speech: Speech, directions: Directions, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
+    accents = find_accents(speech.words, speech.phones, seed, directions.stressed)
     return {
         **_scaled({"head_nod": nods(accents, length_s, seed)}, style.head),
         **_scaled({"brow_raise": brow_raises(accents, length_s, seed)}, style.brows),
@@ -174,35 +163,6 @@ def _known(remap: Remap, channels: Mapping[str, Track]) -> dict[str, Track]:
 
 def _moving(tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
     return {name: track for name, track in tracks.items() if np.any(track.given()[1] != rest)}
-
-
-def _expression(face: Face, remap: Remap, emotion: str | None, amount: float, length_s: float) -> dict[str, Track]:
-    """Tracks that add an amount of what a preset changes, eased in and out."""
-    if emotion is None:
-        return {}
-    check_emotion(face, emotion, amount)
-    spoken = set(remap.reached_by(_spoken(remap)))
-    ease = min(EASE_S, length_s / 3.0)
-    tracks = {}
-    for name, offset in _offsets(face.parameters, face.presets[emotion].values).items():
-        reached = amount * offset * (SPOKEN_SHARE if name in spoken else 1.0)
-        times = [0.0, ease, length_s - ease, length_s]
-        tracks[name] = Track.from_keys(times, [0.0, reached, reached, 0.0], "cosine", name=name)
-    return tracks
-
-
-def _spoken(remap: Remap) -> Iterable[str]:
-    return [channel for channel in MOUTH_CHANNELS if channel in remap.index]
-
-
-def _offsets(table: ParameterTable, values: Mapping[str, float]) -> dict[str, float]:
-    """How far a preset lies from the defaults, by row, without the rows of the scene."""
-    return {
-        row: value - table[row].default
-        for name, value in values.items()
-        for row in table.resolve(name)
-        if value != table[row].default and row.split(".")[0] not in SCENE_GROUPS
-    }
 
 
 def _title(text: str) -> str:

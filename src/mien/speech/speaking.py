@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,17 +26,26 @@ SHORTEST_TAIL_S = 0.05
 SHORTEST_HEAD_S = 0.03
 """Silence of an utterance's own that is never cut off, seconds: it holds the last of the breath and the first."""
 
+NO_PAUSES: Mapping[int, float] = MappingProxyType({})
+
 Report = Callable[[int, int, str], None]
 
 
 def speak(
-    text: str, voice: str | Voice | None = None, *, report: Report | None = None, folder: Path | str | None = None
+    text: str,
+    voice: str | Voice | None = None,
+    *,
+    pauses: Mapping[int, float] = NO_PAUSES,
+    report: Report | None = None,
+    folder: Path | str | None = None,
 ) -> Speech:
     """A text said: its sound, words and phones.
 
     Args:
         text: any text; what the voice cannot say is named in ``skipped``.
         voice: a voice or the name of one; the built-in one by default.
+        pauses: how long nothing is heard, seconds, before characters of the text; before the first and after the last
+            word it is never less than usual.
         report: called as characters of the text are done, with how many, of how many, and what is being done.
         folder: where long sound is kept until it is no longer used; the system's temporary folder by default.
 
@@ -49,12 +60,15 @@ def speak(
     line = _Line(speaker.name, speaker.rate_hz)
     skipped: dict[str, None] = {}
     try:
-        for utterance in speaker.utterances(text):
-            skipped.update(dict.fromkeys(utterance.skipped))
-            for samples in line.add(utterance):
-                store.write(samples)
-            if report is not None:
-                report(utterance.done, len(text), "speaking")
+        for piece in _split_at_pauses(text, pauses):
+            for utterance in speaker.utterances(piece.text) if piece.text else ():
+                skipped.update(dict.fromkeys(utterance.skipped))
+                for samples in line.add(utterance):
+                    store.write(samples)
+                if report is not None:
+                    report(min(piece.start + utterance.done, len(text)), len(text), "speaking")
+            if piece.pause_s is not None:
+                line.wait(piece.pause_s)
         if not line.words:
             raise MienError(_say_why_nothing(text, speaker, list(skipped)))
         store.write(line.finish())
@@ -70,6 +84,26 @@ def speak(
         )
     finally:
         store.close()
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Text without a pause in it, its first character, and the silence wanted after it; None is the voice's own."""
+
+    text: str
+    start: int
+    pause_s: float | None
+
+
+def _split_at_pauses(text: str, pauses: Mapping[int, float]) -> Iterator[_Piece]:
+    """Pieces between pauses; where one ends within a clause, a comma makes the voice stay up."""
+    edges = [0, *sorted({*pauses, len(text)})]
+    for first, last in pairwise(edges):
+        piece = text[first:last]
+        said = piece.strip()
+        if last in pauses and said[-1:].isalnum():
+            piece = piece.rstrip() + ","
+        yield _Piece(piece if said else "", first, pauses.get(last))
 
 
 def _say_why_nothing(text: str, voice: Voice, skipped: list[str]) -> str:
@@ -91,6 +125,7 @@ class _Line:
         self._voice, self._rate_hz = voice, rate_hz
         self._length = 0
         self._pause = round(LEAD_S * rate_hz)
+        self._tail = round(TAIL_S * rate_hz)
         self._phones: list[tuple[int, str]] = []  # first sample and symbol; each lasts until the next
         self.words: list[Cue] = []
 
@@ -131,11 +166,22 @@ class _Line:
         self._append(end + shift, SILENCE)
         self._length = end + tail + shift
         self._pause = max(0, round(utterance.pause_s * rate) - tail)
+        self._tail = round(TAIL_S * rate)
+
+    def wait(self, length_s: float) -> None:
+        """Lets the silence that comes next be so long."""
+        length = round(length_s * self._rate_hz)
+        self._pause = max(0, length - self._silent) if self._phones else max(self._pause, length)
+        self._tail = max(self._tail, length)
+
+    @property
+    def _silent(self) -> int:
+        """Samples of silence at the end."""
+        return self._length - (self._phones[-1][0] if self._phones else self._length)
 
     def finish(self) -> NDArray[np.int16]:
         """The silence at the end, without which the last word sounds cut off."""
-        last = self._phones[-1][0] if self._phones else self._length
-        silence = np.zeros(max(0, round(TAIL_S * self._rate_hz) - (self._length - last)), np.int16)
+        silence = np.zeros(max(0, self._tail - self._silent), np.int16)
         self._length += len(silence)
         return silence
 

@@ -49,6 +49,7 @@ class Speech:
         phones: ARPABET phones from 0 to the end of the sound without holes; vowels carry a stress digit (``AE1``).
         skipped: what the voice could not say, each once, in order.
         voice: name of the voice.
+        script: the text as it was written, with its marks; empty where nobody wrote any.
     """
 
     text: str
@@ -57,6 +58,7 @@ class Speech:
     phones: tuple[Cue, ...]
     skipped: tuple[str, ...]
     voice: str
+    script: str = ""
 
 
 @runtime_checkable

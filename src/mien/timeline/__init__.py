@@ -6,6 +6,7 @@ from .csv_form import format_csv, parse_csv
 from .json_form import StoredTimeline, from_json, json_text, to_json
 from .layers import BLENDS, STANDARD_LAYERS, Layer
 from .rates import Rate, exact_rate
+from .settings import with_settings
 from .specification import Mark, Specification, Specifications, format_specifications, parse_specifications
 from .timeline import Timeline
 from .track import Segment, Track
@@ -33,4 +34,5 @@ __all__ = [
     "parse_csv",
     "parse_specifications",
     "to_json",
+    "with_settings",
 ]

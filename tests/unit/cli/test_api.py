@@ -9,6 +9,7 @@ import pytest
 
 import mien
 from mien import api
+from mien.timeline import with_settings
 
 SCENE = mien.Scene(size_px=(48, 48), subdivide=0)
 
@@ -61,6 +62,38 @@ def test_a_style_is_a_record_or_a_text(monkeypatch: pytest.MonkeyPatch) -> None:
         mien.say("Go.", style="mumble")
 
 
+def test_marks_are_followed_and_not_said(tmp_path: Path) -> None:
+    text = "Hi. [angry] <break time='1s'/> *Go.*"
+    performance = mien.say(text, scene=SCENE)
+    timeline = performance.timeline
+    assert (timeline.text, timeline.title, [word.symbol for word in timeline.words]) == (
+        "Hi. Go.",
+        "Hi. Go.",
+        ["Hi", "Go"],
+    )
+    first, second = timeline.words
+    assert second.start_s - first.end_s == pytest.approx(1.0, abs=0.001)
+    lowered = performance.face.parameters.index["eyebrow.lower.left"]
+    values = timeline.values([first.start_s, first.end_s + 0.3], performance.face.parameters)[:, lowered]
+    assert values == pytest.approx([0.0, 1.0], abs=0.01)
+    speech = mien.speak(text)
+    assert (speech.text, speech.script) == ("Hi. Go.", text)
+    again = mien.perform(speech, scene=SCENE).timeline
+    times = timeline.frame_times(12)
+    np.testing.assert_array_equal(
+        timeline.values(times, performance.face.parameters), again.values(times, performance.face.parameters)
+    )
+
+
+def test_marks_of_a_recording_act_where_its_words_are_heard(tmp_path: Path) -> None:
+    mien.say("The stone is happy.").write(tmp_path / "a.wav")
+    speech = mien.hear(tmp_path / "a.wav", "The stone [angry] is *happy*.")
+    assert (speech.text, speech.script) == ("The stone is happy.", "The stone [angry] is *happy*.")
+    start_s = next(word.start_s for word in speech.words if word.symbol == "is")
+    track = mien.perform(speech).timeline.layer("expression").tracks["eyebrow.lower.left"]
+    assert track.evaluate([start_s - 0.2, start_s + 0.2])[0] == pytest.approx([0.0, 1.0], abs=0.001)
+
+
 def test_the_function_perform_and_the_package_perform_share_a_name() -> None:
     import mien.perform
 
@@ -82,10 +115,10 @@ def test_play_gives_back_what_was_written(tmp_path: Path) -> None:
 def test_settings_are_the_lowest_layer_and_add_up() -> None:
     face = mien.load_face("head")
     timeline = mien.Timeline((mien.Layer("speech", "add", {}),), 1.0)
-    first = api.with_settings(timeline, api.make_pose(face, {"head.turn": 5, "head.nod": 1}))
-    second = api.with_settings(first, api.make_pose(face, {"head.nod": 2}))
+    first = with_settings(timeline, api.make_pose(face, {"head.turn": 5, "head.nod": 1}))
+    second = with_settings(first, api.make_pose(face, {"head.nod": 2}))
     assert [layer.name for layer in second.layers] == ["settings", "speech"]
     values = second.values([0.0, 0.5], face.parameters)
     assert values[:, face.parameters.index["head.turn"]].tolist() == [5.0, 5.0]
     assert values[:, face.parameters.index["head.nod"]].tolist() == [2.0, 2.0]
-    assert api.with_settings(timeline, mien.Pose.neutral(face.parameters)) is timeline
+    assert with_settings(timeline, mien.Pose.neutral(face.parameters)) is timeline

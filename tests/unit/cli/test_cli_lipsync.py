@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import mien
 from mien.cli import main
 from mien.core import SILENCE, Cue
 from mien.formats import CueSheet, read_cue_file, write_cue_file
@@ -83,6 +84,17 @@ def test_a_face_speaks_with_a_recording(recording: Path, tmp_path: Path):
     assert (tmp_path / "bob.wav").read_bytes() == recording.read_bytes()
 
 
+def test_the_text_of_a_recording_may_have_marks(recording: Path, tmp_path: Path):
+    out = tmp_path / "bob.json"
+    marked = "Bob moved [angry] the *box*."
+    assert main(["say", "--audio", str(recording), "--text", marked, "-o", str(out), "--quiet"]) == 0
+    timeline = mien.play(out).timeline
+    assert timeline.text == TEXT
+    brows = timeline.layer("expression").tracks["eyebrow.lower.left"]
+    start_s = timeline.words[2].start_s
+    assert brows.evaluate([start_s - 0.2, start_s + 0.2])[0] == pytest.approx([0.0, 1.0])
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -94,6 +106,10 @@ def test_a_face_speaks_with_a_recording(recording: Path, tmp_path: Path):
         (["lipsync", "AUDIO", "--text", "@none.txt", "-o", "OUT.json"], "none.txt: cannot be read"),
         (["say", "-o", "OUT.json"], "nothing to say"),
         (["say", "Hi", "--audio", "AUDIO", "-o", "OUT.json"], "speaks already"),
+        (
+            ["say", "--audio", "AUDIO", "--text", "[angri] Bob", "-o", "OUT.json"],
+            "unknown mark in line 1, column 1: 'angri'",
+        ),
         (["say", "Hi", "--text", "Hi", "-o", "OUT.json"], "add --audio FILE"),
         (["say", "--audio", "AUDIO", "--voice", "hibari", "-o", "OUT.json"], "has its own"),
     ],

@@ -174,6 +174,32 @@ def test_a_still_film_of_variable_rate_is_one_picture_for_all_its_time(tmp_path:
     assert packets == [(0, 1), (1, 2)]
 
 
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("Go. [smiel] Now.", "mien: unknown mark in line 1, column 5: 'smiel' — did you mean 'smile'"),
+        ("Go <break tiem='1s'/>.", "mien: unknown attribute of <break> in line 1, column 4: 'tiem'"),
+        ("Go [smile", "mien: line 1, column 4: '[' begins a mark"),
+    ],
+)
+def test_a_mistake_in_a_mark_is_told_before_anything_is_said(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, text: str, message: str
+) -> None:
+    monkeypatch.setattr("mien.api.speak", lambda *arguments, **more: pytest.fail("spoke"))
+    assert main(["say", text, "-o", str(tmp_path / "a.mp4")]) == 2
+    assert capfd.readouterr().err.startswith(message)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_subtitles_and_titles_show_no_marks(tmp_path: Path) -> None:
+    text = "Hello [smile] *there*, <break time='300ms'/> my [look left] baby."
+    assert main(["say", text, "-o", str(tmp_path / "a.srt"), "-q"]) == 0
+    assert (tmp_path / "a.srt").read_text().endswith("\nHello there, my baby.\n\n")
+    say(text, "-o", str(tmp_path / "a.mp4"), "--size", "16", "--fps", "2")
+    with av.open(str(tmp_path / "a.mp4")) as film:
+        assert film.metadata["title"] == "Hello there, my baby."
+
+
 def test_a_film_without_sound_says_so(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     size = ["--size", "16", "--subdivide", "0", "--fps", "2"]
     assert main(["say", "Go.", *size, "-o", str(tmp_path / "a.gif")]) == 0

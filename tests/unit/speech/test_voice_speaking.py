@@ -64,6 +64,47 @@ def test_the_pause_between_utterances_is_the_one_asked_for(head: int, tail: int)
     np.testing.assert_array_equal(heard, [*range(200, 400), *range(800, 1000)])
 
 
+@dataclass(frozen=True)
+class Echo(Fake):
+    """Hums once for each text, and notes what it was given."""
+
+    given: list[str] = field(default_factory=list)
+
+    def utterances(self, text: str) -> Iterator[Utterance]:
+        self.given.append(text)
+        yield hum(text, pause_s=0.9)
+
+
+def test_pauses_are_as_long_as_asked_and_words_move_with_them():
+    echo = Echo(())
+    seen: list[tuple[int, int, str]] = []
+    speech = speak("one two. three", echo, pauses={4: 0.4, 9: 0.07}, report=lambda *step: seen.append(step))
+    assert echo.given == ["one,", "two. ", "three"]
+    assert spans(speech) == [
+        (0, 200, "SIL"), (200, 400, "AH1"), (400, 800, "SIL"), (800, 1000, "AH1"), (1000, 1080, "SIL"),
+        (1080, 1280, "AH1"), (1280, 1630, "SIL"),
+    ]  # fmt: skip
+    assert [(round(word.start_s * RATE), word.symbol) for word in speech.words] == [
+        (200, "one,"), (800, "two. "), (1080, "three"),
+    ]  # fmt: skip
+    np.testing.assert_array_equal(
+        np.flatnonzero(speech.sound.samples), [*range(200, 400), *range(800, 1000), *range(1080, 1280)]
+    )
+    assert [done for done, _, _ in seen] == [1, 5, 10, 14]
+
+
+@pytest.mark.parametrize(("pause_s", "lead", "tail"), [(0.05, 200, 350), (1.5, 1500, 1500)])
+def test_a_pause_before_the_first_or_after_the_last_word_only_adds(pause_s: float, lead: int, tail: int):
+    speech = speak("one", Echo(()), pauses={0: pause_s, 3: pause_s})
+    assert spans(speech) == [(0, lead, "SIL"), (lead, lead + 200, "AH1"), (lead + 200, lead + 200 + tail, "SIL")]
+
+
+def test_a_pause_within_a_clause_keeps_the_voice_up():
+    echo = Echo(())
+    speak("a b, c? d", echo, pauses={2: 0.1, 5: 0.1, 8: 0.1})
+    assert echo.given == ["a,", "b, ", "c? ", "d"]
+
+
 def test_holes_that_a_voice_leaves_are_pauses():
     samples = np.full(600, 1000, np.int16)
     phones = (Cue(0.0, 0.1, "AH1"), Cue(0.3, 0.6, "B"))
