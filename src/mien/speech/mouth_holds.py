@@ -44,7 +44,7 @@ NOISY = ("sibilant", "labial")
 """Kinds of phones whose noise needs open lips: holds beside them grow to the other side."""
 
 SHORT_VOWEL_S = 0.15
-"""A vowel between two closures that is shorter is left to itself: they grow away from it, so that it is seen open."""
+"""A vowel between two holds that is shorter is left to itself: closures grow away from it, so that it is seen open."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def wish(phones: Sequence[Cue]) -> list[Hold]:
             noise_before = i > 0 and rows[i - 1].kind in NOISY
             noise_after = i + 1 < len(rows) and rows[i + 1].kind in NOISY
             room = CLOSE_SHARE * phones[i - 1].length_s if i and not noise_before else CLOSE_S * (i == 0)
-            vowel_before = i > 1 and _is_squeezed(phones[i - 1], rows[i - 2 : i + 1])
-            vowel_after = i + 2 < len(rows) and _is_squeezed(phones[i + 1], rows[i : i + 3])
+            vowel_before = i > 1 and _is_squeezed(row, phones[i - 1], rows[i - 1], rows[i - 2])
+            vowel_after = i + 2 < len(rows) and _is_squeezed(row, phones[i + 1], rows[i + 1], rows[i + 2])
             out.append(
                 Hold(
                     start_s=cue.start_s + row.hold_from * cue.length_s,
@@ -125,19 +125,19 @@ def merge(holds: Sequence[Hold]) -> list[Hold]:
 def lengthen(holds: Sequence[Hold], least_s: float = LEAST_S) -> list[Hold]:
     """The holds made long enough, about the middle of their phones, so that the frame nearest to it has them.
 
-    What must not be shortened beside a hold is left alone, and a short one grows into its own phone, then to the
-    other side.
+    What must not be shortened beside a hold is left alone: a short one grows into its own phone, then to the other
+    side, and is held about the middle for half of that time at least, a frame at 24 fps.
     """
     out = []
     for hold in holds:
         before, after = hold.leave
-        if before == after:
-            half, middle = 0.5 * least_s, 0.5 * (hold.start_s + hold.end_s + hold.spare_s)
-            start, end = min(hold.start_s, middle - half), max(hold.end_s, middle + half)
-        else:
+        middle = 0.5 * (hold.start_s + hold.end_s + hold.spare_s)
+        start, end, about = hold.start_s, hold.end_s, 0.5 * least_s
+        if before != after:
             missing = max(0.0, least_s - hold.length_s)
             own = min(missing, hold.spare_s)
-            start, end = hold.start_s - (missing - own) * after, hold.end_s + own + (missing - own) * before
+            start, end, about = start - (missing - own) * after, end + own + (missing - own) * before, 0.25 * least_s
+        start, end = min(start, middle - about), max(end, middle + about)
         out.append(replace(hold, start_s=max(0.0, start), end_s=end - min(0.0, start)))
     return out
 
@@ -210,10 +210,9 @@ def nearness(holds: Sequence[Hold], channel: str, times_s: Floats) -> Floats:
     return value
 
 
-def _is_squeezed(cue: Cue, rows: Sequence[PhoneTarget]) -> bool:
-    """Whether a phone, the middle one of three, is a short vowel between two closures."""
-    before, row, after = rows
-    return row.is_vowel and cue.length_s < SHORT_VOWEL_S and before.hold == after.hold == "closure"
+def _is_squeezed(closure: PhoneTarget, cue: Cue, row: PhoneTarget, other: PhoneTarget) -> bool:
+    """Whether a phone is a short vowel between a closure and another hold."""
+    return closure.hold == "closure" and row.is_vowel and cue.length_s < SHORT_VOWEL_S and bool(other.hold)
 
 
 def _gap(first: Hold, second: Hold) -> float:

@@ -49,6 +49,13 @@ def test_closure_does_not_grow_into_a_hiss() -> None:
     assert before_s.end_s == pytest.approx(0.16)
 
 
+def test_a_very_short_p_beside_a_hiss_is_held_about_its_middle() -> None:
+    (after_s,) = find_holds(cues("S:80 P:20 AA1:100"))
+    (before_s,) = find_holds(cues("AA1:100 P:20 S:80"))
+    assert after_s.start_s == pytest.approx(0.09 - 0.25 * LEAST_S)
+    assert before_s.end_s == pytest.approx(0.11 + 0.25 * LEAST_S)
+
+
 def test_neighbouring_bilabials_are_one_hold() -> None:
     (hold,) = find_holds(cues("AA1:100 P:80 M:80 AA1:100"))
     assert hold.start_s == pytest.approx(0.1)

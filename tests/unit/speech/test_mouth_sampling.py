@@ -29,7 +29,7 @@ F:75 OW1:150 N:75 D:50 F:75 AY1:150 V:50 P:75 IY1:100 P:50 AH0:50 L:100 SIL:350
 """
 
 sounds = st.lists(
-    st.tuples(st.sampled_from([*PHONES, *LABIALS, *ROUNDED]), st.integers(30, 250)), min_size=1, max_size=25
+    st.tuples(st.sampled_from([*PHONES, *LABIALS, *ROUNDED]), st.integers(15, 250)), min_size=1, max_size=25
 ).map(lambda words: cues("SIL:300 " + " ".join(f"{symbol}:{length}" for symbol, length in words)))
 shifts = st.floats(0.0, 0.1)
 STYLES = st.fixed_dictionaries(
