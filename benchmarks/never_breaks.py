@@ -1,8 +1,8 @@
 """How far random poses are from breaking a head: ``python benchmarks/never_breaks.py [--poses 2000] [--first SEED]``.
 
 All of Parke's parameters are drawn at random, in every other pose many of them at the ends of their ranges, and the
-eyes look anywhere ahead; ``--corners`` puts every parameter of the table at one of its ends. What needs pictures is
-measured on every ninth pose.
+eyes look anywhere ahead; ``--corners parke`` puts each of his parameters at one of its ends, ``--corners all`` every
+one of the table. What needs pictures is measured on every ninth pose.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # where the measures are that the tests use
 
-from breaking import MEASURES, Measure, corner_pose, parke_pose
+from breaking import MEASURES, Measure, corner_pose, parke_corner, parke_pose
 from mien.faces.head import Head
 
 EVERY = 9
+CORNERS = {"parke": parke_corner, "all": corner_pose}
 
 
 def main() -> None:
@@ -26,9 +27,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--poses", type=int, default=2000)
     parser.add_argument("--first", type=int, default=0, help="seed of the first pose")
-    parser.add_argument("--corners", action="store_true", help="every parameter at one of its ends")
+    parser.add_argument("--corners", choices=CORNERS, help="Parke's parameters, or all, each at one of its ends")
     arguments = parser.parse_args()
-    head, draw = Head(hair="bald"), corner_pose if arguments.corners else parke_pose
+    head, draw = Head(hair="bald"), CORNERS.get(arguments.corners, parke_pose)
     found: dict[str, dict[int, float]] = {measure.name: {} for measure in MEASURES}
     for seed in range(arguments.first, arguments.first + arguments.poses):
         posed = draw(head, seed)

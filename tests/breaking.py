@@ -49,9 +49,18 @@ def parke_pose(head: Head, seed: int) -> Posed:
 
 def corner_pose(head: Head, seed: int) -> Posed:
     """Every parameter at one of its ends, but the moves of the whole head on its neck."""
+    return _corner(head, [row.name for row in head.parameters if row.group not in NO_SHAPE], seed)
+
+
+def parke_corner(head: Head, seed: int) -> Posed:
+    """All of Parke's parameters each at one of its ends, but the moves of the whole head on its neck."""
+    return _corner(head, parke_names(head.parameters), seed)
+
+
+def _corner(head: Head, names: list[str], seed: int) -> Posed:
     generator = np.random.default_rng(seed)
-    names = [row.name for row in head.parameters if row.group not in NO_SHAPE and row.name not in RIGID]
-    return _at(head, names, generator.integers(0, 2, len(names)).astype(float), generator)
+    moved = [name for name in names if name not in RIGID]
+    return _at(head, moved, generator.integers(0, 2, len(moved)).astype(float), generator)
 
 
 def _at(head: Head, names: list[str], share: np.ndarray, generator: np.random.Generator) -> Posed:
