@@ -43,7 +43,9 @@ TWICE = 0.07
 """Chance of a second blink right after one: our choice."""
 
 
-def blinks(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: float = 1.0) -> dict[str, Track]:
+def blinks(
+    length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: float = 1.0, ends_s: Sequence[float] = ()
+) -> dict[str, Track]:
     """Tracks of the channels ``blink.left`` and ``blink.right``, 0 open to 1 shut.
 
     Args:
@@ -51,17 +53,20 @@ def blinks(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: flo
         seed: of the generator; the same seed blinks alike.
         phones: what is said; a face that says nothing blinks less, and pauses draw blinks to them.
         often: factor on the rate, above 0.
+        ends_s: where phrases end; they draw blinks as pauses do.
     """
-    shapes = [_shape(start) for start in blink_times(length_s, seed, phones, often=often)]
+    shapes = [_shape(start) for start in blink_times(length_s, seed, phones, often=often, ends_s=ends_s)]
     return {f"blink.{side}": pulses(shapes, length_s, name=f"blink.{side}", steps=4) for side in ("left", "right")}
 
 
-def blink_times(length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: float = 1.0) -> list[float]:
+def blink_times(
+    length_s: float, seed: int, phones: Sequence[Cue] = (), *, often: float = 1.0, ends_s: Sequence[float] = ()
+) -> list[float]:
     """When blinks start, s; each is over before the end."""
     chance = stream(seed, "blinks")
     speaking = any(cue.symbol != SILENCE for cue in phones)
     mean = 60.0 / (often * (SPEAKING_A_MINUTE if speaking else RESTING_A_MINUTE))
-    pauses = np.array(_pauses(phones))
+    pauses = np.array(sorted({*_pauses(phones), *ends_s}))
     whole = CLOSE_S + SHUT_S + OPEN_S
     out: list[float] = []
     due = between(chance, 0.25, 0.9) * mean

@@ -13,6 +13,7 @@ from mien.core import Face, Scene, Sound
 from mien.gaze import blinks, brow_raises, find_accents, head_sway, looks, nods, saccades
 from mien.speech import Speech
 from mien.speech.mouth import articulate
+from mien.speech.prosody import Prosody, measure_prosody
 from mien.timeline import Layer, Timeline, Track
 from mien.vocab import Remap, load_remap, weigh
 
@@ -25,6 +26,12 @@ from .style import Style
 USUAL = Style()
 
 VOCABULARY = "channels"
+
+PHRASE_LOOK_S = 0.3
+"""A speaker looks at the listener before a phrase ends.
+
+Source: Kendon 1967, Some functions of gaze-direction in social interaction, Acta Psychologica 26; the time is ours.
+"""
 
 TITLE_LENGTH = 80
 
@@ -90,18 +97,17 @@ def perform(
     remap = load_remap(VOCABULARY, face.family)
     voiced = listen(speech, face)
     length_s = voiced.timeline.length_s
-    lids = _lids(speech, length_s, seed, style)
-    mouth = articulate(speech.phones, style)
     marked = parse_marks(speech.script) if speech.script else MarkedText(speech.text)
     check_marks(marked, face)
     directions = follow_marks(marked, speech.words, length_s)
-    moved = {**mouth, **_accents(speech, directions, length_s, seed, style)}
+    take = _Take(speech, measure_prosody(speech.sound, speech.words, speech.phones), directions, length_s, seed, style)
+    lids, mouth = _lids(take), articulate(speech.phones, style)
     expression = express(face, remap, directions.expressions, length_s, emotion=emotion, amount=emotion_amount)
     layers = (
-        Layer("idle", "add", _play(remap, {**_sway(length_s, seed, style), **lids})),
-        Layer("gaze", "add", _play(remap, _gaze(speech, directions, length_s, seed, style))),
+        Layer("idle", "add", _play(remap, {**_sway(take), **lids})),
+        Layer("gaze", "add", _play(remap, _gaze(take))),
         Layer("expression", "add", expression),
-        Layer("speech", "add", _play(remap, moved)),
+        Layer("speech", "add", _play(remap, {**mouth, **_accents(take)})),
         Layer("shut", "multiply", _shut(remap, {**mouth, **lids})),
         Layer("direct", "replace", {}),
     )
@@ -118,28 +124,46 @@ def listen(speech: Speech, face: Face) -> Performance:
     return Performance(timeline, face, speech.sound)
 
 
-def _lids(speech: Speech, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
-    return blinks(length_s, seed, speech.phones, often=style.blinks) if style.blinks else {}
+@dataclass(frozen=True, eq=False)
+class _Take:
+    """What is said, what is heard in it, what its marks ask for, and how lively it is to be."""
+
+    speech: Speech
+    prosody: Prosody
+    directions: Directions
+    length_s: float
+    seed: int
+    style: Style
 
 
-def _sway(length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
-    return _scaled(head_sway(length_s, seed), style.head)
+def _lids(take: _Take) -> Mapping[str, Track]:
+    often = take.style.blinks
+    ends = take.prosody.ends_s
+    return blinks(take.length_s, take.seed, take.speech.phones, often=often, ends_s=ends) if often else {}
 
 
-def _gaze(speech: Speech, directions: Directions, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
+def _sway(take: _Take) -> Mapping[str, Track]:
+    return _scaled(head_sway(take.length_s, take.seed), take.style.head)
+
+
+def _gaze(take: _Take) -> Mapping[str, Track]:
     """What the eyes do by themselves, and over it the looks that were asked for, whatever the style."""
-    rests = [(glance.start_s, glance.end_s) for glance in directions.glances]
-    idle = _scaled(saccades(length_s, seed, speech.phones, rests), style.gaze)
-    asked = looks(directions.glances, length_s, seed)
-    both = {name: weigh([(1.0, idle[name]), (1.0, asked[name])], name=name) for name in idle.keys() & asked.keys()}
-    return {**idle, **asked, **both}
+    asked = [(glance.start_s, glance.end_s) for glance in take.directions.glances]
+    rests = sorted([*asked, *((end_s - PHRASE_LOOK_S, end_s) for end_s in take.prosody.ends_s)])
+    idle = _scaled(saccades(take.length_s, take.seed, take.speech.phones, rests), take.style.gaze)
+    moved = looks(take.directions.glances, take.length_s, take.seed)
+    both = {name: weigh([(1.0, idle[name]), (1.0, moved[name])], name=name) for name in idle.keys() & moved.keys()}
+    return {**idle, **moved, **both}
 
 
-def _accents(speech: Speech, directions: Directions, length_s: float, seed: int, style: Style) -> Mapping[str, Track]:
-    accents = find_accents(speech.words, speech.phones, seed, directions.stressed)
+def _accents(take: _Take) -> Mapping[str, Track]:
+    speech, heard = take.speech, take.prosody
+    accents = find_accents(
+        speech.words, speech.phones, take.seed, take.directions.stressed, heard.prominence, heard.ends_s
+    )
     return {
-        **_scaled({"head_nod": nods(accents, length_s, seed)}, style.head),
-        **_scaled({"brow_raise": brow_raises(accents, length_s, seed)}, style.brows),
+        **_scaled({"head_nod": nods(accents, take.length_s, take.seed)}, take.style.head),
+        **_scaled({"brow_raise": brow_raises(accents, take.length_s, take.seed)}, take.style.brows),
     }
 
 

@@ -95,6 +95,13 @@ def test_blinks_gather_at_pauses() -> None:
     assert np.mean([round(time, 6) in pauses for time in times]) > 0.4
 
 
+def test_blinks_gather_where_phrases_end() -> None:
+    phones = [Cue(0.0, 120.0, "AA1")]
+    ends = [3.0 * k for k in range(1, 40)]
+    times = [time for seed in range(10) for time in blink_times(120.0, seed, phones, ends_s=ends)]
+    assert np.mean([time in ends for time in times]) > 0.4
+
+
 def test_a_blink_shuts_fast_and_opens_slowly_and_every_film_sees_it_shut() -> None:
     track = blinks(30.0, 5)["blink.left"]
     start = blink_times(30.0, 5)[0]
@@ -201,6 +208,46 @@ def test_function_words_are_lower_case_and_hold_no_content() -> None:
     assert not {"stone", "happy", "road"} & function_words()
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_the_most_prominent_word_is_accented_whatever_its_length(seed: int) -> None:
+    heard = dict(zip(WORDS, (0.5, 0.9, 0.1, 0.0), strict=True))
+    accents = find_accents(WORDS, SOUNDS, seed, prominence=heard)
+    assert [(accent.word, accent.strength) for accent in accents] == [("happy", 1.0)]
+
+
+def test_a_small_word_that_stands_out_is_accented() -> None:
+    heard = dict(zip(WORDS, (0.0, 0.1, 0.95, 0.2), strict=True))
+    assert [accent.word for accent in find_accents(WORDS, SOUNDS, 0, prominence=heard)] == ["the"]
+
+
+def test_prominence_is_the_chance_of_other_words() -> None:
+    words = [Cue(i, i + 1.0, "stone") for i in range(100)]
+    sounds = [Cue(cue.start_s, cue.end_s, "OW1") for cue in words]
+    counts = []
+    for often in (0.1, 0.8):
+        heard = {word: 1.0 if i % 2 else often for i, word in enumerate(words)}
+        accents = find_accents(words, sounds, 1, prominence=heard)
+        counts.append(sum(int(accent.time_s) % 2 == 0 for accent in accents))
+    assert counts[0] < 15
+    assert counts[1] > 30
+
+
+def test_a_phrase_ends_where_somebody_heard_it_end() -> None:
+    def chief(*ends_s: float) -> list[float]:
+        return [accent.time_s for accent in find_accents(WORDS, SOUNDS, 0, ends_s=ends_s) if accent.strength == 1.0]
+
+    assert chief() == [1.0]
+    assert chief(0.6, 1.3) == pytest.approx([0.3, 1.0])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_words_asked_for_are_accented_with_their_strength(seed: int) -> None:
+    accents = find_accents(WORDS, SOUNDS, seed, {WORDS[2]: 0.7})
+    assert [(a.word, a.strength, a.wanted) for a in accents if a.wanted] == [("the", 0.7, True)]
+    assert len(nods(accents, 2.0, seed)) > 1
+    assert max(values(brow_raises(accents, 2.0, seed))) >= 0.5
+
+
 def test_nothing_said_has_no_accents() -> None:
     assert find_accents([], [], 0) == ()
 
@@ -234,6 +281,15 @@ def test_eyes_leave_the_viewer_only_while_something_is_said() -> None:
     silent = saccades(120.0, 2)
     assert np.max(np.abs(values(silent["eye_turn"]))) <= 1.8
     assert np.max(np.abs(values(saccades(120.0, 2, talk(120.0))["eye_turn"]))) > 3.0
+
+
+def test_eyes_hold_still_on_the_viewer_while_they_are_to_rest() -> None:
+    rests = [(5.0 * k, 5.0 * k + 1.0) for k in range(1, 20)]
+    tracks = saccades(120.0, 2, talk(120.0), rests)
+    for start_s, end_s in rests:
+        moments = np.linspace(start_s + saccade_length_s(12.0), end_s, 9)
+        assert not tracks["eye_turn"].evaluate(moments)[0].any()
+    assert np.max(np.abs(values(tracks["eye_turn"]))) > 3.0
 
 
 # All
