@@ -18,6 +18,7 @@ from mien.core import SILENCE, MienError
 
 from .hearing_edges import Span, sharpen
 from .hearing_sound import FRAME_S
+from .phones import PHONES
 
 FRAME_CENTRE_S = 0.008
 """From the time of a frame's number to the boundary before it.
@@ -30,13 +31,16 @@ SEARCH: Mapping[str, Any] = {
     "bestpath": False,  # with it the pass that finds the phones fails now and then
     "topn": 2,
 }
-"""Options of every search. Two of the nearest densities are added up, not four: a third less work, the same boundaries."""
+"""Options of every search. Two of the nearest densities are added up, not four: a third less work, same boundaries."""
 
 ALIGNMENT: Mapping[str, Any] = {"lm": None, "beam": 1e-120, "pbeam": 1e-120, "wbeam": 1e-80}
 """Options of the search for given words: nothing is given up, which in a chain of words costs little."""
 
 RECOGNITION: Mapping[str, Any] = {"fwdflat": False, "maxhmmpf": 1500}
 """Options of the search without a text: one pass, and no more than so many models at a time."""
+
+PHONES_ALONE: Mapping[str, Any] = {"lm": None, "lw": 2.0, "pip": 0.3, "beam": 1e-20, "pbeam": 1e-20}
+"""Options of the search for phones without words. Source: CMUSphinx, Phoneme Recognition."""
 
 _VARIANT = re.compile(r"\(\d+\)$")
 _FILLERS = frozenset(["<s>", "</s>", "<sil>", "[NOISE]", "[SPEECH]", "(NULL)"])
@@ -49,6 +53,10 @@ class FoundPhone:
     symbol: str
     start_s: float
     end_s: float
+
+    def later(self, by_s: float) -> FoundPhone:
+        """The same phone that many seconds later."""
+        return FoundPhone(self.symbol, self.start_s + by_s, self.end_s + by_s)
 
 
 @dataclass(frozen=True)
@@ -77,8 +85,7 @@ class FoundWord:
 
     def later(self, by_s: float) -> FoundWord:
         """The same word that many seconds later."""
-        phones = (FoundPhone(phone.symbol, phone.start_s + by_s, phone.end_s + by_s) for phone in self.phones)
-        return FoundWord(self.spelling, tuple(phones), self.score)
+        return FoundWord(self.spelling, tuple(phone.later(by_s) for phone in self.phones), self.score)
 
 
 class Aligner:
@@ -141,6 +148,24 @@ class Recogniser:
         """The words that are heard; none in noise, music or silence."""
         self._decoder.activate_search()
         return _search(self._decoder, samples) or []
+
+
+class PhoneRecogniser:
+    """Finds phones in samples at ``HEARING_HZ`` by the order that phones of English have, without knowing words."""
+
+    def __init__(self) -> None:
+        from pocketsphinx import get_model_path
+
+        self._decoder = _load({**PHONES_ALONE, "allphone": get_model_path("en-us/en-us-phone.lm.bin")})
+
+    def recognise(self, samples: NDArray[np.int16]) -> list[FoundPhone]:
+        """The phones that are heard, in order of time, with holes where a pause or a noise is."""
+        _feed(self._decoder, samples)
+        return [
+            FoundPhone(each.word, each.start_frame * FRAME_S, (each.end_frame + 1) * FRAME_S).later(FRAME_CENTRE_S)
+            for each in self._decoder.seg() or ()
+            if each.word in PHONES and each.word != SILENCE
+        ]
 
 
 def _load(options: Mapping[str, Any]) -> Any:

@@ -9,8 +9,9 @@ import numpy as np
 
 from mien.core import SILENCE, Cue, MienError, Sound
 
-from .align import Aligner, FoundWord, Recogniser
+from .align import Aligner, FoundWord, PhoneRecogniser, Recogniser
 from .hearing_follow import Follower, HeardWord, count_finished, find_piece, is_spoken, mean_score
+from .hearing_phones import is_understood, put_phones
 from .hearing_sound import Loudness, measure_loudness, take_piece
 from .hearing_words import Transcript, add_stress, read_transcript
 from .voice import Speech
@@ -84,7 +85,8 @@ def hear(sound: Sound, text: str | None = None, *, report: Report | None = None)
             raise MienError(
                 "no word is heard: the sound is noise, music or not English — if it is speech, give its transcript"
             )
-        text = " ".join(word.written for word in words)
+        text = " ".join(word.written for word in words if word.written)
+        notices += _tell_unspelled(words)
     else:
         aligner = Aligner()
         transcript = read_transcript(text, aligner.lookup)
@@ -114,17 +116,33 @@ class _Word:
 
 
 def _listen(sound: Sound, loudness: Loudness, tell: Callable[[float], None]) -> Iterator[FoundWord]:
-    """The words of a sound, recognised, in order of time."""
-    recogniser = Recogniser()
+    """The words of a sound, recognised, in order of time.
+
+    Where they are not understood, phones come as words without a spelling.
+    """
+    recogniser, phone_recogniser = Recogniser(), PhoneRecogniser()
     piece = find_piece(sound, loudness, 0.0)
     while piece is not None:
         samples = take_piece(sound, *piece, loudness)
         found = [word.later(piece[0]) for word in recogniser.recognise(samples) if is_spoken(word)]
+        if found and not is_understood(found, piece, loudness):
+            found = put_phones(found, [phone.later(piece[0]) for phone in phone_recogniser.recognise(samples)])
         count = count_finished(found, piece, sound)
         yield from found[:count]
         next_s = piece[1] if count == len(found) else found[count - 1].end_s
         tell(next_s)
         piece = find_piece(sound, loudness, next_s)
+
+
+def _tell_unspelled(words: Iterable[_Word]) -> list[str]:
+    """What to say of stretches whose phones are heard, but no words."""
+    found = [word.found for word in words if not word.written]
+    length_s = sum(word.end_s - word.start_s for word in found)
+    if not found:
+        return []
+    return [
+        f"{length_s:.1f} s are heard as sounds, not as words, from {found[0].start_s:.1f} s on — give the transcript"
+    ]
 
 
 def _place_word(heard: HeardWord, transcript: Transcript) -> _Word:
@@ -145,6 +163,8 @@ def _time_words(words: Sequence[_Word], scale: tuple[float, float]) -> tuple[tup
     """A cue for each written word from its first sound to its last, and how sure each is."""
     groups: list[list[_Word]] = []
     for word in words:
+        if not word.written:
+            continue
         if groups and word.owner >= 0 and groups[-1][-1].owner == word.owner:
             groups[-1].append(word)
         else:

@@ -77,6 +77,13 @@ def is_spoken(word: FoundWord) -> bool:
     return max(phone.end_s - phone.start_s for phone in word.phones) < LONGEST_PHONE_S
 
 
+def find_unexplained_s(words: Sequence[FoundWord], piece: tuple[float, float], loudness: Loudness) -> list[float]:
+    """How much is heard before each word of a piece, and after the last one, beside the words, seconds."""
+    ends = [piece[0], *(word.end_s for word in words)]
+    starts = [*(word.start_s for word in words), piece[1]]
+    return [loudness.count_loud_s(*gap) for gap in zip(ends, starts, strict=True)]
+
+
 def mean_score(words: Sequence[FoundWord]) -> float:
     """How much worse words fit than what fits best, over their time."""
     spans = [word.end_s - word.start_s for word in words]
@@ -102,7 +109,10 @@ class Follower:
         place, piece = 0, find_piece(self._sound, self._loudness, 0.0)
         while piece is not None:
             found = self._hear_piece(*piece, place)
-            count = count_finished([heard.word for heard in found], piece, self._sound)
+            words = [heard.word for heard in found]
+            count = count_finished(words, piece, self._sound)
+            if count > 1 and find_unexplained_s(words, piece, self._loudness)[-1] >= UNEXPLAINED_S:
+                count -= 1  # the search ended too early: what is left is a piece of its own, from the last word on
             yield from found[:count]
             place = max([place, *(heard.place + 1 for heard in found[:count] if heard.place is not None)])
             next_s = piece[1] if count == len(found) else found[count - 1].word.end_s
@@ -123,28 +133,41 @@ class Follower:
         chain = [token.spellings for token in ahead]
         found = self._aligner.align(samples, chain, open_end=not last) if chain else None
         found = found and [word.later(start_s) for word in found]
-        if found and self._fits(found, start_s, end_s):
-            self._strange = False
-            return [HeardWord(word, place + number) for number, word in enumerate(found)]
-        return self._repair(samples, start_s, place, ahead)
+        if found and self._explains(found, (start_s, end_s)):
+            quiet = self._loudness.loud_db - self._loudness.low_db >= NOISY_DB
+            if mean_score(found) <= (POOR_SCORE if quiet else POOR_SCORE_IN_NOISE):
+                return self._accept(found, place)
+        else:
+            found = None
+        return self._repair(samples, start_s, place, ahead, found)
 
-    def _fits(self, words: Sequence[FoundWord], start_s: float, end_s: float) -> bool:
-        """Whether words are what is heard in a piece, and nothing else is."""
-        quiet = self._loudness.loud_db - self._loudness.low_db >= NOISY_DB
-        if mean_score(words) > (POOR_SCORE if quiet else POOR_SCORE_IN_NOISE):
-            return False
-        edges = [(word.start_s, word.end_s) for word in words]
-        gaps = zip([start_s, *(end for _, end in edges)], [*(start for start, _ in edges), end_s], strict=True)
-        return all(self._loudness.count_loud_s(*gap) < UNEXPLAINED_S for gap in gaps)
+    def _explains(self, words: Sequence[FoundWord], piece: tuple[float, float]) -> bool:
+        """Whether nothing else is heard in a piece; after the last of several words is another piece."""
+        gaps_s = find_unexplained_s(words, piece, self._loudness)
+        return max(gaps_s[:-1] if len(words) > 1 else gaps_s) < UNEXPLAINED_S
+
+    def _accept(self, words: Sequence[FoundWord], place: int) -> list[HeardWord]:
+        self._strange = False
+        return [HeardWord(word, place + number) for number, word in enumerate(words)]
 
     def _repair(
-        self, samples: NDArray[np.int16], start_s: float, place: int, ahead: Sequence[Token]
+        self,
+        samples: NDArray[np.int16],
+        start_s: float,
+        place: int,
+        ahead: Sequence[Token],
+        found: Sequence[FoundWord] | None,
     ) -> list[HeardWord]:
-        """What is heard in a piece that does not hold the words ahead: as much of them as possible, and the rest."""
+        """What is heard in a piece that seems not to hold the words ahead: as much of them as possible, and the rest.
+
+        Words ahead that were found, and fit better than those recognised, are what is said, by a strange voice.
+        """
         self._recogniser = self._recogniser or Recogniser()
         heard = [word for word in self._recogniser.recognise(samples) if is_spoken(word)]
         if not heard:
             return []  # noise or music: the text goes on after it
+        if found and mean_score(found) < mean_score(heard):
+            return self._accept(found, place)
         spellings = [word.spelling for word in heard]
         merge = merge_words([token.spellings[0].removesuffix(OWN_MARK) for token in ahead], spellings)
         strange = merge.agreed < LEAST_AGREEMENT * len(heard)

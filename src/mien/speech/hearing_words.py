@@ -112,7 +112,12 @@ def pronounce(word: str) -> tuple[str, ...]:
 
 
 def add_stress(phones: Sequence[str], word: str) -> list[str]:
-    """Phones without stress as they are in a word: its vowels' digits in order, or the first vowel stressed."""
+    """Phones without stress as they are in a word: its vowels' digits in order, or the first vowel stressed.
+
+    Where no word is known, every vowel is stressed: one that is not is hardly heard.
+    """
+    if not word:
+        return [phone + "1" if phone in VOWELS else phone for phone in phones]
     digits = [symbol[-1] for symbol in pronounce(word) if strip_stress(symbol) in VOWELS]
     count = _count_vowels(phones)
     if len(digits) != count:
