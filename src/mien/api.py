@@ -312,14 +312,15 @@ def speak(text: str, voice: str | None = None, *, report: Report | None = None) 
     return replace(speak(marked.text, voice, pauses=marked.pauses, report=report), script=text)
 
 
-def hear(path: Path | str, text: str | None = None, *, report: Report | None = None) -> Speech:
+def hear(path: Path | str, text: str | None = None, *, language: str = "en", report: Report | None = None) -> Speech:
     """What is said in a recording or film: its sound, words and phones with their times.
 
     ``mien.speech.hear`` tells besides how sure each word is, and where text and sound differ.
 
     Args:
         path: WAV, MP3, OGG, FLAC, M4A, a film.
-        text: what is said, with marks if you like; without it the words are recognised, less surely.
+        text: what is said, with marks if you like; without it the words are recognised, less surely; only in English.
+        language: in which it is said: ``de``, ``pt-BR``; all but English need ``pip install 'mien[espeak]'``.
         report: told (seconds done, seconds in all, what is being done).
 
     Raises:
@@ -332,8 +333,8 @@ def hear(path: Path | str, text: str | None = None, *, report: Report | None = N
 
     sound = read_sound(path)
     if text is None:
-        return hear(sound, report=report).speech
-    return replace(hear(sound, parse_marks(text).text, report=report).speech, script=text)
+        return hear(sound, language=language, report=report).speech
+    return replace(hear(sound, parse_marks(text).text, language=language, report=report).speech, script=text)
 
 
 def perform(

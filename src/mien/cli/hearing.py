@@ -16,12 +16,13 @@ UNSURE = 0.5
 MOST_NAMED = 10
 
 
-def hear_file(audio: Path, text: str | None, cues: Path | None, stages: Stages) -> Heard:
+def hear_file(audio: Path, text: str | None, language: str | None, cues: Path | None, stages: Stages) -> Heard:
     """The words and phones of a recording: those of a file of cues where there is one, else those that are heard.
 
     Args:
         audio: a sound file or a film.
         text: what is said in it; None where nobody knows.
+        language: in which it is said; English where None.
         cues: times that were corrected by hand.
         stages: told what is going on.
     """
@@ -34,7 +35,7 @@ def hear_file(audio: Path, text: str | None, cues: Path | None, stages: Stages) 
         speech = take_cues(Speech(text or "", sound, (), (), (), ""), cues)
         return Heard(speech, (1.0,) * len(speech.words), ())
     with stages.progress("listening") as report:
-        heard = hear(sound, text, report=lambda done, total, doing: report(done, total))
+        heard = hear(sound, text, language=language or "en", report=lambda done, total, doing: report(done, total))
     for notice in heard.notices:
         stages.say(f"{audio}: {notice}")
     if text is None:

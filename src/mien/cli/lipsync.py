@@ -28,6 +28,7 @@ def lipsync(
         ),
     ] = None,
     text: options.Transcript = None,
+    language: options.Language = None,
     cues: options.Cues = None,
     shapes: Annotated[
         str, typer.Option("--shapes", metavar="SET", help="Mouth shapes: rhubarb, oculus, sapi or preston-blair.")
@@ -39,13 +40,14 @@ def lipsync(
     as_json: Annotated[bool, typer.Option("--json", help="Print the words as JSON, and how sure each is.")] = False,
     quiet: options.Quiet = False,
 ) -> None:
-    """Find the words, phones and mouth shapes of a recording of American English.
+    """Find the words, phones and mouth shapes of a recording.
 
     \b
     mien lipsync line.wav --text "Call me at noon." -o line.TextGrid
     mien lipsync podcast.mp3 --text @podcast.txt -o podcast.json
     mien lipsync interview.mp4 -o interview.tsv --shapes oculus
     mien lipsync line.wav --text @line.txt --layout rhubarb -o line.xml
+    mien lipsync zeile.wav --text "Schöne Grüße!" --language de -o zeile.TextGrid
     mien lipsync line.wav --cues corrected.TextGrid --shapes preston-blair -o line.dat
     mien lipsync line.wav --json
     """
@@ -69,7 +71,7 @@ def lipsync(
         check_cue_file(out, layout)
     transcript = None if text is None else settings.read_text(text)
     stages = Stages(quiet)
-    heard = hear_file(audio, transcript, cues, stages)
+    heard = hear_file(audio, transcript, language, cues, stages)
     if out is not None:
         speech = heard.speech
         tiers = {WORDS: speech.words, PHONES: speech.phones, SHAPES: shapes_of(speech.phones, shapes)}

@@ -57,6 +57,10 @@ Transcript = Annotated[
     str | None,
     typer.Option("--text", metavar="T|@FILE|-", help="What the recording says; without it, words are recognised."),
 ]
+Language = Annotated[
+    str | None,
+    typer.Option("--language", metavar="TAG", help="Spoken: en (default), de, fr, es, it, nl, pt, pt-BR …"),
+]
 Cues = Annotated[
     Path | None,
     typer.Option("--cues", metavar="FILE", help="Words and phones corrected by hand, such as .TextGrid; they win."),

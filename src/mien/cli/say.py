@@ -30,6 +30,7 @@ def say(
         typer.Option("--audio", metavar="FILE", help="A recording to speak with: WAV, MP3, OGG, FLAC, M4A, a film."),
     ] = None,
     transcript: options.Transcript = None,
+    language: options.Language = None,
     cues: options.Cues = None,
     style: Annotated[
         str,
@@ -78,6 +79,7 @@ def say(
     mien say "Good night." --preset sleepy --style blinks=2,head=0.5 -o night.mp4
     mien say "Good morning." --style mumbling -o morning.mp4
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
+    mien say "Schöne Grüße aus München." --language de -o gruesse.mp4
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     mien say "Hello there." -o hello.glb
     mien say --audio line.wav --text "Call me at noon." -o line.mp4
@@ -116,7 +118,7 @@ def say(
 
         check_face(subject)
     pose = settings.make_pose(subject, values, preset, units, mix, person)
-    check_source(text, voice, audio, transcript)
+    voice = check_source(text, voice, audio, transcript, language)
     written = text if audio is None else transcript
     script = None if written is None else settings.read_text(written)
     if script is not None:
@@ -126,7 +128,7 @@ def say(
         check_emotion(subject, mood, amount)
     manner = load_style(style)
     stages = Stages(quiet)
-    speech = find_speech(script, voice, audio, cues, stages)
+    speech = find_speech(script, voice, audio, language, cues, stages)
     if kind in HEARD:
         performance = listen(speech, subject)
     else:
@@ -144,29 +146,45 @@ def say(
     write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)
 
 
-def check_source(text: str | None, voice: str | None, audio: Path | None, transcript: str | None) -> None:
-    """Nothing, when it is clear whether a voice or a recording speaks.
+def check_source(
+    text: str | None, voice: str | None, audio: Path | None, transcript: str | None, language: str | None
+) -> str | None:
+    """The name of the voice that speaks; None for the usual one, or a recording.
 
     Raises:
         MienError: neither or both do, or an option belongs to the other.
-        UnknownNameError: there is no such voice.
+        UnknownNameError: there is no such voice, or nobody speaks the language.
     """
     from mien import api
     from mien.core import MienError
+    from mien.speech import find_speaker
 
     if audio is None:
         if text is None:
             raise MienError('nothing to say — give a text, as in mien say "Hello there." -o hello.mp4, or --audio FILE')
         if transcript is not None:
             raise MienError("--text says what a recording says — add --audio FILE, or leave --text out")
+        if language is not None and voice is not None:
+            raise MienError(f"--voice {voice} has a language of its own — leave --language {language} out")
+        if language is not None:
+            return find_speaker(language).name
         api.find_voice(voice)
+        return voice
     elif text is not None:
         raise MienError(f"{text!r}: the recording {audio} speaks already — what it says goes after --text")
     elif voice is not None:
         raise MienError(f"--voice {voice}: the recording {audio} has its own — leave one of them out")
+    return None
 
 
-def find_speech(script: str | None, voice: str | None, audio: Path | None, cues: Path | None, stages: Stages) -> Speech:
+def find_speech(
+    script: str | None,
+    voice: str | None,
+    audio: Path | None,
+    language: str | None,
+    cues: Path | None,
+    stages: Stages,
+) -> Speech:
     """What the face says: a text by a voice, or a recording; with the times of a file of cues where there is one."""
     from mien import api
     from mien.perform import parse_marks
@@ -175,7 +193,7 @@ def find_speech(script: str | None, voice: str | None, audio: Path | None, cues:
 
     if audio is not None:
         text = None if script is None else parse_marks(script).text
-        return replace(hear_file(audio, text, cues, stages).speech, script=script or "")
+        return replace(hear_file(audio, text, language, cues, stages).speech, script=script or "")
     with stages.progress("speaking") as report:
         speech = api.speak(script or "", voice, report=lambda done, total, doing: report(done, total))
     if speech.skipped:

@@ -5,7 +5,7 @@ from mien.core import SILENCE
 from .hearing import Heard, hear
 from .phones import CONSONANTS, PHONES, STOPS, VOWELS, stress_of, strip_stress
 from .speaking import speak
-from .voice import Speech, Utterance, Voice, find_voice, voices
+from .voice import Speech, Utterance, Voice, find_speaker, find_voice, voices
 
 __all__ = [
     "CONSONANTS",
@@ -17,6 +17,7 @@ __all__ = [
     "Speech",
     "Utterance",
     "Voice",
+    "find_speaker",
     "find_voice",
     "hear",
     "speak",

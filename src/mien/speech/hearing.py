@@ -14,7 +14,8 @@ from .hearing_follow import Follower, HeardWord, count_finished, find_piece, is_
 from .hearing_phones import is_understood, put_phones
 from .hearing_sound import Loudness, measure_loudness, take_piece
 from .hearing_words import Transcript, add_stress, read_transcript
-from .voice import Speech
+from .voice import Speech, find_speaker, is_english
+from .warping import warp
 
 SILENT_DB = -65.0
 """Loudest parts below this are silence: less than noise of 16 bits under a whisper."""
@@ -51,19 +52,24 @@ class Heard:
     notices: tuple[str, ...]
 
 
-def hear(sound: Sound, text: str | None = None, *, report: Report | None = None) -> Heard:
-    """The words and phones of a recording of American English.
+def hear(sound: Sound, text: str | None = None, *, language: str = "en", report: Report | None = None) -> Heard:
+    """The words and phones of a recording.
 
     Args:
         sound: at 8000 samples a second or more; may be hours long.
-        text: what is said in it; None where nobody knows, and then it is recognised, less surely.
+        text: what is said in it; None where nobody knows, and then it is recognised, less surely; only in English.
+        language: in which it is said, a tag like ``de`` or ``pt-BR``; all but English need espeak-ng.
         report: told (seconds heard, seconds in all, what is being done).
 
     Raises:
         MienError: nothing is heard (silence, noise, music), the text is empty or another one than what is said.
+        UnknownNameError: nobody here speaks the language.
     """
     if text is not None and not text.strip():
         raise MienError("the transcript is empty — leave it out, and the words are recognised")
+    voice = None if is_english(language) else find_speaker(language)
+    if voice is not None and text is None:
+        raise MienError(f"language {language!r}: words are recognised in English only — give the transcript")
     loudness = measure_loudness(sound)
     if sound.length_s < SHORTEST_S:
         raise MienError(f"the sound lasts {sound.length_s:.2f} s — no word is as short as that")
@@ -77,6 +83,12 @@ def hear(sound: Sound, text: str | None = None, *, report: Report | None = None)
         if report is not None:
             report(round(time_s), round(sound.length_s), "listening")
 
+    if voice is not None and text is not None:
+        warped = warp(sound, loudness, text, voice, tell)
+        phones = _fill_gaps((phone for word in warped.words for phone in word.phones), sound.length_s)
+        cues = tuple(Cue(word.phones[0].start_s, word.phones[-1].end_s, word.written) for word in warped.words)
+        speech = Speech(text, sound, cues, phones, (*warped.missing, *warped.skipped), "")
+        return Heard(speech, warped.sure, (*notices, *warped.notices))
     skipped: tuple[str, ...] = ()
     recognised = text is None
     if text is None:
@@ -101,7 +113,7 @@ def hear(sound: Sound, text: str | None = None, *, report: Report | None = None)
         notices += follower.notices
         skipped = _find_skipped(words, transcript)
     cues, sure = _time_words(words, RECOGNISED_SCORE if recognised else ALIGNED_SCORE)
-    speech = Speech(text, sound, cues, _lay_phones(words, sound.length_s), skipped, "")
+    speech = Speech(text, sound, cues, _fill_gaps(_spell_phones(words), sound.length_s), skipped, "")
     return Heard(speech, sure, tuple(notices))
 
 
@@ -178,20 +190,26 @@ def _how_sure(score: float, half: float, step: float) -> float:
     return float(1.0 / (1.0 + np.exp((score - half) / step)))
 
 
-def _lay_phones(words: Sequence[_Word], length_s: float) -> tuple[Cue, ...]:
-    """Phones from 0 to the end without holes: pauses where no word is."""
-    cues: list[Cue] = []
-    end_s = 0.0
+def _spell_phones(words: Sequence[_Word]) -> Iterator[Cue]:
+    """Phones of words with their stresses."""
     for word in words:
         symbols = add_stress([phone.symbol for phone in word.found.phones], word.spoken)
         for symbol, phone in zip(symbols, word.found.phones, strict=True):
-            start_s, stop_s = max(phone.start_s, end_s), min(phone.end_s, length_s)
-            if stop_s <= start_s:
-                continue
-            if start_s > end_s:
-                cues.append(Cue(end_s, start_s, SILENCE))
-            cues.append(Cue(start_s, stop_s, symbol))
-            end_s = stop_s
+            yield Cue(phone.start_s, max(phone.start_s, phone.end_s), symbol)
+
+
+def _fill_gaps(phones: Iterable[Cue], length_s: float) -> tuple[Cue, ...]:
+    """Phones from 0 to the end without holes: pauses where none is."""
+    cues: list[Cue] = []
+    end_s = 0.0
+    for phone in phones:
+        start_s, stop_s = max(phone.start_s, end_s), min(phone.end_s, length_s)
+        if stop_s <= start_s:
+            continue
+        if start_s > end_s:
+            cues.append(Cue(end_s, start_s, SILENCE))
+        cues.append(Cue(start_s, stop_s, phone.symbol))
+        end_s = stop_s
     if length_s > end_s:
         cues.append(Cue(end_s, length_s, SILENCE))
     return tuple(cues)

