@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from difflib import SequenceMatcher
+
 import pytest
 from hearing_cases import GARDEN, MARKET, chords, joined, noise, said, words
 
 from mien.core import MienError, Sound
-from mien.speech import hear
+from mien.speech import hear, strip_stress
+from mien.speech.align import Recogniser
 
 
 def test_a_transcript_of_another_sound_is_refused_with_the_place():
@@ -72,3 +75,13 @@ def test_silence_is_refused():
 def test_no_sound_is_refused():
     with pytest.raises(MienError, match=r"lasts 0\.00 s"):
         hear(Sound.silence(0.0))
+
+
+def test_speech_without_words_moves_the_mouth_all_the_same(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Recogniser, "recognise", lambda self, samples: [])
+    heard = hear(said(MARKET).sound)
+    assert (heard.speech.words, heard.sure, heard.speech.text) == ((), (), "")
+    assert len(heard.notices) == 1
+    assert "are heard as sounds, not as words, from 0.2 s on" in heard.notices[0]
+    found, truth = ([strip_stress(cue.symbol) for cue in speech.phones] for speech in (heard.speech, said(MARKET)))
+    assert SequenceMatcher(None, found, truth, autojunk=False).ratio() > 0.5
