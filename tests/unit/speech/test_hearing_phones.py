@@ -46,8 +46,10 @@ def test_a_pause_among_phones_parts_them() -> None:
 def test_guesses_and_sound_beside_words_are_not_understood() -> None:
     words = [word("hi", "HH AY", 0.5), word("you", "Y UW", 1.0)]
     assert is_understood(words, (0.0, 2.0), loudness((0.5, 0.7), (1.0, 1.2)))
-    assert not is_understood(words, (0.0, 2.0), loudness((0.5, 0.7), (1.0, 1.5)))
-    assert not is_understood([word("hi", "HH AY", 0.5, LIKELY_SCORE + 1)], (0.0, 2.0), loudness((0.5, 0.7)))
+    assert is_understood(words, (0.0, 2.0), loudness((0.5, 0.7), (1.0, 1.6)))
+    assert not is_understood(words, (0.0, 2.0), loudness((0.5, 0.7), (1.0, 1.8)))
+    assert is_understood([word("hi", "HH AY", 0.5, LIKELY_SCORE + 1)], (0.0, 2.0), loudness((0.5, 0.7)))
+    assert not is_understood([word("hi", "HH AY", 0.5, LIKELY_SCORE + 1)], (0.2, 0.9), loudness((0.5, 0.7)))
 
 
 def test_vowels_of_no_known_word_are_stressed() -> None:
