@@ -32,6 +32,15 @@ def say(
     transcript: options.Transcript = None,
     language: options.Language = None,
     cues: options.Cues = None,
+    script: Annotated[
+        Path | None,
+        typer.Option(
+            "--script",
+            metavar="FILE",
+            help="Several speakers: a table speaker,line (and face,voice,emotion) in CSV. OUT with %s in its name is "
+            "a film of each; else one film cuts to whoever speaks.",
+        ),
+    ] = None,
     style: Annotated[
         str,
         typer.Option(
@@ -84,6 +93,9 @@ def say(
     mien say "Hello there." -o hello.glb
     mien say --audio line.wav --text "Call me at noon." -o line.mp4
     mien say --audio line.wav --cues corrected.TextGrid -o line.mp4
+    mien say "I am [smile 0.6] so *happy* <break time='400ms'/> to see you. [look left] Who is that?" -o who.mp4
+    mien say --script talk.csv -o talk.mp4
+    mien say --script talk.csv -o talk_%s.mp4
     echo Hello | mien say - --emotion smile=0.6 -o hello.json
     """
     from mien import api
@@ -110,6 +122,31 @@ def say(
         cosine_power=cosine_power,
     )
     settings.check_threads(threads)
+    manner = load_style(style)
+    mood, amount = settings.parse_emotion(emotion)
+    stages = Stages(quiet)
+    if script is not None:
+        check_alone(script, text, audio, transcript, cues)
+        voice = check_source(str(script), voice, None, None, language)
+        from .script import Job, say_script
+
+        begun = "" if mood is None else f"{mood} {amount:g}"
+        job = Job(
+            out,
+            scene,
+            rate,
+            threads,
+            subtitles,
+            variable,
+            face,
+            voice,
+            begun,
+            seed,
+            manner,
+            lambda face: settings.make_pose(face, values, preset, units, mix, person),
+        )
+        say_script(script, job, stages)
+        return
     # Everything that can be wrong is looked at before the first long step.
     kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
     subject = api.load_face(face)
@@ -120,15 +157,12 @@ def say(
     pose = settings.make_pose(subject, values, preset, units, mix, person)
     voice = check_source(text, voice, audio, transcript, language)
     written = text if audio is None else transcript
-    script = None if written is None else settings.read_text(written)
-    if script is not None:
-        check_marks(parse_marks(script), subject)
-    mood, amount = settings.parse_emotion(emotion)
+    written = None if written is None else settings.read_text(written)
+    if written is not None:
+        check_marks(parse_marks(written), subject)
     if mood is not None:
         check_emotion(subject, mood, amount)
-    manner = load_style(style)
-    stages = Stages(quiet)
-    speech = find_speech(script, voice, audio, language, cues, stages)
+    speech = find_speech(written, voice, audio, language, cues, stages)
     if kind in HEARD:
         performance = listen(speech, subject)
     else:
@@ -144,6 +178,20 @@ def say(
                 scene=scene,
             )
     write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)
+
+
+def check_alone(script: Path, text: str | None, audio: Path | None, transcript: str | None, cues: Path | None) -> None:
+    """Nothing, when nothing but a script says what is said.
+
+    Raises:
+        MienError: something else does, too.
+    """
+    from mien.core import MienError
+
+    others = {"TEXT": text, "--audio": audio, "--text": transcript, "--cues": cues}
+    found = next((f"{name} {other}" for name, other in others.items() if other is not None), None)
+    if found is not None:
+        raise MienError(f"{found}: the script {script} says what is said — leave one of them out")
 
 
 def check_source(

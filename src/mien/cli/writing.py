@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .stages import Stages, format_time
 
 if TYPE_CHECKING:
+    from mien.formats.cuts import Cut
     from mien.formats.performances import Performance
     from mien.timeline import Rate
 
@@ -22,6 +24,7 @@ def write(
     threads: int | None,
     subtitles: str | None,
     variable: bool,
+    cuts: Sequence[Cut] = (),
 ) -> None:
     """Writes a performance in a format that ``check_performance`` named, and tells of it."""
     from mien.formats import write_performance
@@ -39,6 +42,7 @@ def write(
             threads=threads,
             subtitles=subtitles,
             variable=variable,
+            cuts=cuts,
             report=report,
         )
     if subtitles is not None and subtitles != BURN:

@@ -18,6 +18,7 @@ from mien.timeline import Rate, Timeline, exact_rate
 from mien.timeline.rates import time_of
 
 from .atomic import check_file, writing
+from .cuts import Cut, cut_poses
 from .notes import notes
 from .pipeline import at_once, run_ahead
 from .rates import DEFAULT_FPS, check_film, check_rate
@@ -134,6 +135,7 @@ def write_performance(
     threads: int | None = None,
     subtitles: Path | str | None = None,
     variable: bool = False,
+    cuts: Sequence[Cut] = (),
     report: Report | None = None,
 ) -> None:
     """Writes the performance as a film, pictures, sound, subtitles or data; the suffix decides.
@@ -148,6 +150,7 @@ def write_performance(
         threads: that draw; None is one a core, four at most. Pictures are equal for any number.
         subtitles: a file ``.srt`` or ``.vtt`` to write them to as well, or ``burn`` to draw them into the pictures.
         variable: whether equal pictures of a film in a row become one that stays longer.
+        cuts: who is seen instead of the performance's face, and from when on; in pictures alone.
         report: told after every frame.
 
     Raises:
@@ -165,7 +168,7 @@ def write_performance(
         if subtitles is not None and not burned:
             write_subtitles(shown, stack.enter_context(writing(subtitles)), job.notes)
         if kind in DRAWN:
-            _write_frames(job, shown if burned else (), threads, variable, report)
+            _write_frames(job, shown if burned else (), threads, variable, cuts, report)
         else:
             _write_data(job, shown)
 
@@ -188,13 +191,18 @@ class _Job:
 
 
 def _write_frames(
-    job: _Job, burned: Sequence[Subtitle], threads: int | None, variable: bool, report: Report | None
+    job: _Job,
+    burned: Sequence[Subtitle],
+    threads: int | None,
+    variable: bool,
+    cuts: Sequence[Cut],
+    report: Report | None,
 ) -> None:
     from .burning import Burner
 
     burner = Burner(burned, job.scene.size_px) if burned else None
     drawn = run_ahead(
-        draw_frames(job.timeline, job.face, job.scene, job.rate, threads, burner), at_once(job.scene.size_px)
+        draw_frames(job.timeline, job.face, job.scene, job.rate, threads, burner, cuts), at_once(job.scene.size_px)
     )
     with closing(drawn), closing(_told(drawn, job.timeline.frame_count(job.rate), report)) as frames:
         if job.kind == "film":
@@ -268,7 +276,13 @@ def _told(frames: Iterator[NDArray[np.uint8]], total: int, report: Report | None
 
 
 def draw_frames(
-    timeline: Timeline, face: Face, scene: Scene, fps: Rate, threads: int | None = None, burner: Burner | None = None
+    timeline: Timeline,
+    face: Face,
+    scene: Scene,
+    fps: Rate,
+    threads: int | None = None,
+    burner: Burner | None = None,
+    cuts: Sequence[Cut] = (),
 ) -> Frames:
     """Each frame (H, W, 4) uint8, sRGB with straight alpha, in order; frame k shows the moment k / fps.
 
@@ -277,13 +291,14 @@ def draw_frames(
     from mien.render import Renderer
 
     rate = exact_rate(fps)
-    values: NDArray[np.float64] | None = None
     number: int | None = None
+    drawn: tuple[Face, NDArray[np.float64]] | None = None
+    played = cut_poses(cuts or (Cut(0.0, timeline, face),), timeline.frame_count(rate), rate)
     with Renderer(scene, threads or default_threads()) as renderer:
-        for frame, pose in enumerate(timeline.poses(face.parameters, rate)):
+        for frame, (seen, pose) in enumerate(played):
             before, number = number, None if burner is None else burner.at(time_of(float(frame), rate))
-            if values is None or number != before or not np.array_equal(pose.values, values):
-                shown, values = renderer.draw(face, pose), pose.values
+            if drawn is None or number != before or drawn[0] is not seen or not np.array_equal(pose.values, drawn[1]):
+                shown, drawn = renderer.draw(seen, pose), (seen, pose.values)
                 if burner is not None and number is not None:
                     burner.burn(shown)
             yield shown

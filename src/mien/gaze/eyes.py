@@ -67,7 +67,7 @@ def saccades(
         keys += _saccade(keys[-1], moment, _look_away(chance) if away else _look_at_viewer(chance))
         moment = keys[-1][0] + between(chance, *(GLANCE_S if away else FIXATION_S))
     keys += _saccade(keys[-1], max(keys[-1][0], length_s - SETTLE_S), (0.0, 0.0))
-    keys.append((max(length_s, keys[-1][0]), 0.0, 0.0))
+    keys += [(length_s, 0.0, 0.0)] if length_s > keys[-1][0] else []
     times, turns, nods = zip(*keys, strict=True)
     return {
         "eye_turn": Track.from_keys(times, turns, name="eye_turn"),
@@ -79,11 +79,11 @@ def _saccade(
     last: tuple[float, float, float], start_s: float, aim: tuple[float, float]
 ) -> list[tuple[float, float, float]]:
     """Keys of a rest until ``start_s`` and a quick way to where the eyes aim next."""
-    _, turn, nod = last
+    last_s, turn, nod = last
     aside, up = aim[0] - turn, aim[1] - nod
     end = start_s + saccade_length_s(sqrt(aside * aside + up * up))
     # A straight way: how it speeds up and slows down within 40 ms is not seen at any frame rate.
-    return [(start_s, turn, nod), (end, *aim)]
+    return [*([(start_s, turn, nod)] if start_s > last_s else []), (end, *aim)]
 
 
 def _look_at_viewer(chance: np.random.Generator) -> tuple[float, float]:

@@ -5,6 +5,7 @@ from .expressions import check_emotion, check_marks
 from .marks import MarkedText
 from .marks_reader import parse_marks
 from .performance import Performance, listen, perform
+from .script import Script, read_script
 from .style import NamedStyle, Style, named_styles, parse_style, style_table
 from .style_files import load_style, read_style
 
@@ -12,6 +13,7 @@ __all__ = [
     "MarkedText",
     "NamedStyle",
     "Performance",
+    "Script",
     "Style",
     "check_emotion",
     "check_marks",
@@ -23,6 +25,7 @@ __all__ = [
     "parse_marks",
     "parse_style",
     "perform",
+    "read_script",
     "read_style",
     "style_table",
 ]

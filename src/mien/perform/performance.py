@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mien.core import Face, Scene, Sound
-from mien.gaze import blinks, brow_raises, find_accents, head_sway, looks, nods, saccades
+from mien.gaze import Glance, blinks, brow_raises, find_accents, head_sway, looks, nods, saccades
 from mien.speech import Speech
 from mien.speech.mouth import articulate
 from mien.speech.prosody import Prosody, measure_prosody
@@ -72,6 +72,7 @@ def perform(
     style: Style = USUAL,
     emotion: str | None = None,
     emotion_amount: float = 1.0,
+    glances: Sequence[Glance] = (),
 ) -> Performance:
     """What a face does while it says something, as a timeline of named layers, with the sound.
 
@@ -88,6 +89,7 @@ def perform(
         style: how lively.
         emotion: a preset of the kind ``expression``, eased in and out; a mark of an expression takes its place.
         emotion_amount: how much of it, 0..1.
+        glances: looks besides those that marks ask for.
 
     Raises:
         MienError: the face is of a family that cannot be played, or a mark cannot be understood.
@@ -99,7 +101,8 @@ def perform(
     length_s = voiced.timeline.length_s
     marked = parse_marks(speech.script) if speech.script else MarkedText(speech.text)
     check_marks(marked, face)
-    directions = follow_marks(marked, speech.words, length_s)
+    asked = follow_marks(marked, speech.words, length_s)
+    directions = replace(asked, glances=tuple(sorted([*asked.glances, *glances], key=lambda glance: glance.start_s)))
     take = _Take(speech, measure_prosody(speech.sound, speech.words, speech.phones), directions, length_s, seed, style)
     lids, mouth = _lids(take), articulate(speech.phones, style)
     expression = express(face, remap, directions.expressions, length_s, emotion=emotion, amount=emotion_amount)

@@ -123,7 +123,7 @@ def measure_contour(sound: Sound) -> Contour:
     floor = QUIET_SHARE * loudness.max(initial=0.0)
     for chunk in chunks:
         loud = loudness[chunk] > floor
-        if loud.any():
+        if loud.any() and rate > 2.0 * HIGH_HZ:
             pitch[chunk] = np.where(loud, _find_pitch(take(chunk), rate, hop, lags, len(loud)), 0.0)
     return Contour(hop * factor / sound.rate_hz, pitch, loudness)
 
@@ -153,7 +153,7 @@ def _find_pitch(signal: Floats, rate: float, hop: int, lags: int, count: int) ->
         difference[:, lag] = _sum_windows(change * change, hop, count)
     total = np.cumsum(difference, axis=1)
     share = np.divide(difference * np.arange(lags + 1), total, out=np.ones_like(total), where=total > 0.0)
-    first = int(rate / HIGH_HZ)
+    first = max(1, int(rate / HIGH_HZ))
     dips = (share[:, first:-1] < DIP) & (share[:, first:-1] <= share[:, first + 1 :])
     rows, best = np.arange(count), first + dips.argmax(axis=1)
     left, middle, right = (difference[rows, best + step] for step in (-1, 0, 1))

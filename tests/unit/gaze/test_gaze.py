@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mien.core import Cue
 from mien.core.chance import around, between, stream
-from mien.gaze import blinks, brow_raises, find_accents, head_sway, nods, saccades
+from mien.gaze import Glance, blinks, brow_raises, find_accents, head_sway, looks, nods, saccades
 from mien.gaze.accents import LEAST_APART_S, Accent, function_words
 from mien.gaze.blinks import CLOSE_S, OPEN_S, SHUT_S, blink_times
 from mien.gaze.curves import pulses, way
@@ -290,6 +290,36 @@ def test_eyes_hold_still_on_the_viewer_while_they_are_to_rest() -> None:
         moments = np.linspace(start_s + saccade_length_s(12.0), end_s, 9)
         assert not tracks["eye_turn"].evaluate(moments)[0].any()
     assert np.max(np.abs(values(tracks["eye_turn"]))) > 3.0
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.tuples(st.floats(0.0, 10.0), st.floats(0.0, 2.0)), max_size=8), SEEDS)
+def test_rests_make_no_jumps(rests: list[tuple[float, float]], seed: int) -> None:
+    asked = sorted((start_s, start_s + length_s) for start_s, length_s in rests)
+    for track in saccades(10.0, seed, talk(10.0), asked).values():
+        times, _ = track.given()
+        assert np.all(np.diff(times) > 0.0)
+
+
+# Looks
+
+
+def test_looks_lead_with_the_eyes_and_the_head_follows() -> None:
+    tracks = looks([Glance(1.0, 3.0, "left"), Glance(2.0, 4.0, "up", 0.5)], 6.0, 0)
+    moments = [0.99, 1.07, 1.9, 2.9, 3.9, 4.9]
+    assert tracks["eye_turn"].evaluate(moments)[0] == pytest.approx([0.0, -17.0, -17.0, 0.0, 0.0, 0.0])
+    assert tracks["eye_nod"].evaluate(moments)[0] == pytest.approx([0.0, 0.0, 0.0, 5.5, 5.5, 0.0])
+    assert tracks["head_turn"].evaluate([1.07, 1.9, 2.9])[0] == pytest.approx([0.0, -6.0, 0.0], abs=0.1)
+    assert looks([], 6.0, 0) == {}
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.tuples(st.floats(0.0, 10.0), st.floats(0.0, 2.0)), max_size=8), SEEDS)
+def test_looks_make_no_jumps(glances: list[tuple[float, float]], seed: int) -> None:
+    asked = [Glance(start_s, start_s + length_s, "away") for start_s, length_s in sorted(glances)]
+    for track in looks(asked, 10.0, seed).values():
+        times, _ = track.given()
+        assert np.all(np.diff(times) > 0.0)
 
 
 # All

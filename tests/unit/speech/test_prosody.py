@@ -53,6 +53,12 @@ def test_silence_and_noise_have_no_pitch() -> None:
     assert len(measure_contour(Sound(silence(0.0), 16000)).pitch_hz) == 0
 
 
+def test_a_sound_too_coarse_for_pitch_has_loudness() -> None:
+    contour = measure_contour(Sound(np.full(100, 3277, np.int16), 100))
+    assert not contour.pitch_hz.any()
+    assert contour.loudness[2:-2] == pytest.approx(0.1, rel=0.01)
+
+
 def test_a_hum_under_speech_is_not_listened_to() -> None:
     samples = np.concatenate([voice(120.0, 0.2, 0.3), voice(300.0, 0.002, 0.3)])
     contour = measure_contour(Sound(samples, 16000))
