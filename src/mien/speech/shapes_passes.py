@@ -18,8 +18,8 @@ Source: Daniloff and Moll 1968, Coarticulation of lip rounding, Journal of Speec
 several consonants early. The length is our choice.
 """
 
-LEAST_HELD_S = 0.045
-"""Shut and tucked lips are shown this long, more than a frame at 24 fps."""
+LEAST_HELD_S = 0.055
+"""Shut and tucked lips are shown this long: more than a frame at 20 fps."""
 
 LEAST_S = 0.035
 """Another shape that is shorter is no shape that the mouth reaches."""

@@ -134,13 +134,13 @@ def test_two_closures_in_a_row_are_one() -> None:
 
 
 def test_short_closures_take_time_from_both_sides() -> None:
-    assert spell(lengthen(pieces("D:100 A!:25 C:100"))) == "D:87 A!:45 C:93"
+    assert spell(lengthen(pieces("D:100 A!:35 C:100"))) == "D:87 A!:55 C:93"
 
 
 def test_short_closures_at_the_ends_and_beside_held_ones_take_it_from_the_other_side() -> None:
-    assert spell(lengthen(pieces("A!:25 C:100"))) == "A!:45 C:80"
-    assert spell(lengthen(pieces("C:100 A!:25"))) == "C:80 A!:45"
-    assert spell(lengthen(pieces("G!:60 A!:25 C:100"))) == "G!:60 A!:45 C:80"
+    assert spell(lengthen(pieces("A!:35 C:100"))) == "A!:55 C:80"
+    assert spell(lengthen(pieces("C:100 A!:35"))) == "C:80 A!:55"
+    assert spell(lengthen(pieces("G!:60 A!:35 C:100"))) == "G!:60 A!:55 C:80"
 
 
 def test_what_is_too_short_to_be_reached_is_shared_by_its_neighbours() -> None:
