@@ -52,8 +52,17 @@ def hear_file(audio: Path, text: str | None, language: str | None, cues: Path | 
 
 
 def take_cues(speech: Speech, cues: Path) -> Speech:
-    """The speech with the words and phones of a file of cues in place of its own."""
+    """The speech with the words and phones of a file of cues in place of its own.
+
+    Raises:
+        LoadError: the file, or what its tiers say, cannot be used.
+    """
+    from mien.core import LoadError, MienError
     from mien.formats.cue_files import read_cue_file
     from mien.perform import correct
 
-    return correct(speech, read_cue_file(cues))
+    sheet = read_cue_file(cues)
+    try:
+        return correct(speech, sheet)
+    except MienError as error:
+        raise LoadError(cues, str(error).removeprefix("cues: ")) from None

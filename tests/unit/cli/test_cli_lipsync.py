@@ -121,3 +121,11 @@ def test_mistakes_are_told_and_nothing_is_written(
     assert main([*given, "--quiet"]) == 2
     assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_cues_that_cannot_be_used_are_named(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    cues = tmp_path / "mine.TextGrid"
+    write_cue_file(CueSheet(1.0, {"phones": (Cue(0.0, 1.0, "wrong!"),)}), cues)
+    assert main(["lipsync", str(recording), "--cues", str(cues), "-o", str(tmp_path / "out.json"), "--quiet"]) == 2
+    assert str(cues) in capsys.readouterr().err
+    assert not (tmp_path / "out.json").exists()
