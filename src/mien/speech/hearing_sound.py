@@ -91,15 +91,18 @@ class Loudness:
 
 def measure_loudness(sound: Sound) -> Loudness:
     """The loudness of a sound, read a few seconds at a time."""
-    size = round(FRAME_S * sound.rate_hz)
-    block = size * round(BLOCK_S / FRAME_S)
+    size = FRAME_S * sound.rate_hz  # a frame may end between two samples: 22050 Hz has frames of 220 and 221
+    block = round(BLOCK_S * sound.rate_hz)
     powers, clipped = [], 0
     for first in range(0, len(sound.samples), block):
         samples = sound.samples[first : first + block]
         high = np.abs(samples.astype(np.int32)) >= FULL_SCALE
         clipped += int((high[1:] & high[:-1]).sum())
-        whole = samples[: len(samples) // size * size].reshape(-1, size).astype(np.float64)
-        powers.append((whole * whole).mean(axis=1) - whole.mean(axis=1) ** 2)
+        edges = np.rint(np.arange(int(len(samples) / size + 1e-9) + 1) * size).astype(np.int64)
+        if len(edges) > 1:
+            whole, counts = samples[: edges[-1]].astype(np.float64), np.diff(edges)
+            mean = np.add.reduceat(whole, edges[:-1]) / counts
+            powers.append(np.add.reduceat(whole * whole, edges[:-1]) / counts - mean**2)
     power = np.concatenate([np.zeros(0), *powers]) / 32768.0**2
     level = 10 * np.log10(np.maximum(power, 1e-10)).astype(np.float32)
     loud, low = _find_range(level)

@@ -66,3 +66,13 @@ def test_clipping_is_counted():
     samples[100:104], samples[500] = 32767, 32767
     assert measure_loudness(Sound(samples, 16000)).clipped_share == pytest.approx(0.003)
     # one sample at the top is a peak
+
+
+@pytest.mark.parametrize("rate_hz", [11025, 16000, 22050, 44100])
+def test_frames_keep_time_at_any_rate(rate_hz: int) -> None:
+    samples = np.zeros(60 * rate_hz + 7, np.int16)
+    samples[59 * rate_hz : round(59.5 * rate_hz)] = 3000 * (-1) ** np.arange(round(59.5 * rate_hz) - 59 * rate_hz)
+    level_db = measure_loudness(Sound(samples, rate_hz)).level_db
+    assert len(level_db) == 6000
+    loud = np.flatnonzero(level_db > -30.0)
+    assert (loud[0], loud[-1]) == (5900, 5949)
