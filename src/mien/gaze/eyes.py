@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from math import sqrt
 
@@ -55,10 +56,10 @@ def saccades(
     keys = [(0.0, 0.0, 0.0)]
     away = False
     moment = between(chance, *FIXATION_S)
-    coming = list(rests)
+    coming = deque(rests)
     while moment < length_s - SETTLE_S - 0.1:
         if coming and coming[0][0] <= moment:
-            start_s, end_s = coming.pop(0)
+            start_s, end_s = coming.popleft()
             keys += _saccade(keys[-1], max(start_s, keys[-1][0]), (0.0, 0.0))
             moment, away = max(end_s, keys[-1][0]), False
             continue

@@ -86,13 +86,14 @@ def _next_word(place: int, places: Sequence[tuple[int, int]]) -> int:
 def _time_marks(
     marks: Sequence[Mark], words: Sequence[Cue], places: Sequence[tuple[int, int]]
 ) -> Iterator[tuple[float, Expression | Units | Look]]:
-    breaks = [number for number, mark in enumerate(marks) if isinstance(mark.act, Break)]
+    last_break = {
+        _next_word(mark.place, places): number for number, mark in enumerate(marks) if isinstance(mark.act, Break)
+    }
     for number, mark in enumerate(marks):
         if isinstance(mark.act, Break | Emphasis):
             continue
         word = _next_word(mark.place, places)
-        waits = any(other > number and _next_word(marks[other].place, places) == word for other in breaks)
-        if waits or word == len(words):
+        if last_break.get(word, -1) > number or word == len(words):
             yield (words[word - 1].end_s if word else 0.0), mark.act
         else:
             yield words[word].start_s, mark.act
@@ -113,8 +114,7 @@ def _find_stressed(
 ) -> Iterator[tuple[Cue, float]]:
     for mark in marks:
         if isinstance(mark.act, Emphasis):
-            first = _next_word(mark.place, places)
-            for word, (start, _) in zip(words[first:], places[first:], strict=True):
-                if start >= mark.act.end:
-                    break
-                yield word, mark.act.strength
+            number = _next_word(mark.place, places)
+            while number < len(words) and places[number][0] < mark.act.end:
+                yield words[number], mark.act.strength
+                number += 1

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 
 from mien.core import MienError, RangeError, UnknownNameError
@@ -68,7 +70,8 @@ class _Reader:
     """Plain text and marks as far as a text has been read."""
 
     source: str
-    plain: str = ""
+    parts: list[str] = field(default_factory=list)  # of the plain text, none empty
+    length: int = 0
     marks: list[tuple[int, Mark]] = field(default_factory=list)  # with the place in ``source``
     opened: list[_Opened] = field(default_factory=list)
     behind_mark: bool = False
@@ -78,14 +81,25 @@ class _Reader:
         if not text:
             return
         if self.behind_mark:
-            if not self.plain or self.plain.endswith("\n"):
+            last = self.parts[-1][-1] if self.parts else "\n"
+            if last == "\n":
                 text = text.lstrip()
-            elif self.plain[-1].isspace():
+            elif last.isspace():
                 text = text.lstrip(" \t")
-            if text.startswith(_LEANING):
-                self.plain = self.plain.rstrip(" \t")
+            if text.startswith(_LEANING) and self.parts:
+                self._append(self._pop().rstrip(" \t"))
             self.behind_mark = not text
-        self.plain += text
+        self._append(text)
+
+    def _append(self, text: str) -> None:
+        if text:
+            self.parts.append(text)
+            self.length += len(text)
+
+    def _pop(self) -> str:
+        last = self.parts.pop()
+        self.length -= len(last)
+        return last
 
     def take(self, token: re.Match[str]) -> None:
         """Takes the next escape, mark, tag or star."""
@@ -101,7 +115,7 @@ class _Reader:
                 f"close it, or write \\{sign} for the sign itself"
             )
         elif token["mark"]:
-            self._add(_parse_act(token["mark"], self._where(offset)), offset, len(self.plain))
+            self._add(_parse_act(token["mark"], self._where(offset)), offset, self.length)
         else:
             self._take_tag(token["closing"] + token["tag"], token["rest"], offset)
 
@@ -109,7 +123,7 @@ class _Reader:
         if any(opened.sign == stars for opened in self.opened):
             self._close(stars, offset)
         elif _STARRED.match(self.source, offset):
-            self.opened.append(_Opened(stars, offset, len(self.plain), 1.0))
+            self.opened.append(_Opened(stars, offset, self.length, 1.0))
         else:
             self.add_words(stars)
 
@@ -119,12 +133,12 @@ class _Reader:
             raise UnknownNameError(f"tag in {where}:", tag, ATTRIBUTES)
         attributes = _parse_attributes(tag, rest.rstrip().removesuffix("/"), where)
         if tag == "break":
-            self._add(Break(_parse_time(attributes.get("time"), where)), offset, len(self.plain))
+            self._add(Break(_parse_time(attributes.get("time"), where)), offset, self.length)
         elif tag == "emphasis":
             level = attributes.get("level", "strong")
             if level not in LEVELS:
                 raise UnknownNameError(f"level of <emphasis> in {where}:", level, LEVELS)
-            self.opened.append(_Opened(tag, offset, len(self.plain), LEVELS[level]))
+            self.opened.append(_Opened(tag, offset, self.length, LEVELS[level]))
             self.behind_mark = True
         else:
             self._close(tag[1:], offset)
@@ -134,26 +148,31 @@ class _Reader:
         if opened is None:
             raise MienError(f"{self._where(offset)}: </{sign}> ends what was not begun — leave it out")
         self.opened.remove(opened)
-        self._add(Emphasis(len(self.plain), opened.strength), opened.offset, opened.place)
+        self._add(Emphasis(self.length, opened.strength), opened.offset, opened.place)
 
     def _add(self, act: Act, offset: int, place: int) -> None:
-        self.marks.append((offset, Mark(act, place, *_line_and_column(self.source, offset))))
+        self.marks.append((offset, Mark(act, place, *self._line_and_column(offset))))
         self.behind_mark = True
 
     def _where(self, offset: int) -> str:
-        line, column = _line_and_column(self.source, offset)
+        line, column = self._line_and_column(offset)
         return f"line {line}, column {column}"
+
+    def _line_and_column(self, offset: int) -> tuple[int, int]:
+        line = bisect_right(self.lines, offset)
+        return line, offset - self.lines[line - 1] + 1
+
+    @cached_property
+    def lines(self) -> list[int]:
+        """Where each line begins."""
+        return [0, *(match.end() for match in re.finditer("\n", self.source))]
 
     def finish(self) -> MarkedText:
         """What was read."""
         if self.opened:
             place = self._where(self.opened[-1].offset)
             raise MienError(f"{place}: the emphasis is not ended — add </emphasis>")
-        return MarkedText(self.plain, tuple(mark for _, mark in sorted(self.marks, key=lambda pair: pair[0])))
-
-
-def _line_and_column(text: str, offset: int) -> tuple[int, int]:
-    return text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset)
+        return MarkedText("".join(self.parts), tuple(mark for _, mark in sorted(self.marks, key=lambda pair: pair[0])))
 
 
 def _parse_act(text: str, where: str) -> Act:

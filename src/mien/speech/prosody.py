@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from mien.core import SILENCE, Cue, Sound
@@ -141,16 +142,18 @@ def _take(sound: Sound, first: int, length: int, factor: int) -> Floats:
 def _sum_windows(values: Floats, hop: int, count: int) -> Floats:
     """(count,) sums over windows of ``WINDOW_STEPS`` hops, one hop apart."""
     steps = values[: (count + WINDOW_STEPS - 1) * hop].reshape(-1, hop).sum(axis=1)
-    return np.lib.stride_tricks.sliding_window_view(steps, WINDOW_STEPS).sum(axis=1)
+    return sliding_window_view(steps, WINDOW_STEPS).sum(axis=1)
 
 
 def _find_pitch(signal: Floats, rate: float, hop: int, lags: int, count: int) -> Floats:
     """(count,) Hz, 0 where the signal does not repeat itself."""
-    length = (count + WINDOW_STEPS - 1) * hop
-    difference = np.zeros((count, lags + 1))
-    for lag in range(1, lags + 1):
-        change = signal[:length] - signal[lag : lag + length]
-        difference[:, lag] = _sum_windows(change * change, hop, count)
+    steps = sliding_window_view(signal, hop + lags)[::hop][: count + WINDOW_STEPS - 1]
+    powers = np.cumsum(np.pad(steps * steps, ((0, 0), (1, 0))), axis=1)
+    power = powers[:, hop:] - powers[:, : lags + 1]
+    product = np.stack([np.correlate(step, step[:hop], "valid") for step in steps])
+    # (a - b)² = a² + b² - 2 a b, to the last bit, because all are whole numbers under 2⁵³.
+    changes = power[:, :1] + power - 2.0 * product
+    difference = sliding_window_view(changes, WINDOW_STEPS, axis=0).sum(axis=2)
     total = np.cumsum(difference, axis=1)
     share = np.divide(difference * np.arange(lags + 1), total, out=np.ones_like(total), where=total > 0.0)
     first = max(1, int(rate / HIGH_HZ))

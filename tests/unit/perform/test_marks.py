@@ -149,3 +149,11 @@ def test_levels_of_emphasis() -> None:
 def test_mistakes_name_their_place(text: str, error: type[MienError], message: str) -> None:
     with pytest.raises(error, match=message):
         parse_marks(text)
+
+
+def test_a_long_text_with_many_marks_is_read_in_time_that_grows_with_it() -> None:
+    text = "[smile] one *two* <break/> three.\n" * 20000
+    marked = parse_marks(text)
+    assert len(marked.marks) == 60000
+    assert (marked.marks[-1].line, marked.marks[-1].column) == (20000, 19)
+    assert marked.text == "one two three.\n" * 20000
