@@ -28,8 +28,8 @@ from mien.speech.voice import Voice
 from mien.speech.voice_espeak import EspeakVoice
 from mien.speech.warping import warp
 
-VARIANTS = (("f3", 120), ("m3", 185), ("f2", 150))
-"""Other speakers of the engine, and their words a minute; the pattern is a man's at 155."""
+VARIANTS = (("f4", 120), ("m3", 185), ("f1", 150))
+"""Other speakers of the engine, and their words a minute; the pattern is a man's at 155. f2 and f3 vary by chance."""
 
 NOISES_DB = (None, 20.0, 10.0)
 MEASURES = ("boundary ms", "20 ms %", "50 ms %", "found %")

@@ -38,7 +38,7 @@ class EspeakVoice:
     """A voice of espeak-ng.
 
     Attributes:
-        engine: what the engine calls it; a variant follows a ``+``: ``de+f3``.
+        engine: what the engine calls it; a variant follows a ``+``: ``de+f4``; f2 and f3 vary by chance.
         words_a_minute: how fast it speaks.
     """
 
