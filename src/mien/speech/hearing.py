@@ -26,9 +26,6 @@ CLIPPED_SHARE = 1e-4
 SHORTEST_S = 0.1
 """Less is no word, seconds."""
 
-SPEECH_SHARE = 0.6
-"""Of what is not silent, that must be phones to be speech without words; in music it is a third at most."""
-
 ALIGNED_SCORE, RECOGNISED_SCORE = (38.0, 6.0), (49.0, 10.0)
 """Score of a word that is as likely right as wrong, and what makes that e times as likely, with and without a text.
 
@@ -96,8 +93,8 @@ def hear(sound: Sound, text: str | None = None, *, language: str = "en", report:
     recognised = text is None
     if text is None:
         words = [_Word(word, word.spelling, word.spelling) for word in _listen(sound, loudness, tell)]
-        words = words or [_Word(run, "", "") for run in _listen_for_phones(sound, loudness)]
-        if not words:
+        # Sounds alone are no proof of a voice: a chord that swells and fades has phones too.
+        if not any(word.written for word in words):
             raise MienError(
                 "no word is heard: the sound is noise, music or not English — if it is speech, give its transcript"
             )
@@ -148,19 +145,6 @@ def _listen(sound: Sound, loudness: Loudness, tell: Callable[[float], None]) -> 
         next_s = piece[1] if count == len(found) else found[count - 1].end_s
         tell(next_s)
         piece = find_piece(sound, loudness, next_s)
-
-
-def _listen_for_phones(sound: Sound, loudness: Loudness) -> list[FoundWord]:
-    """Runs of phones, where they make up most of what is heard; none in noise or music."""
-    recogniser = PhoneRecogniser()
-    runs: list[FoundWord] = []
-    piece = find_piece(sound, loudness, 0.0)
-    while piece is not None:
-        phones = recogniser.recognise(take_piece(sound, *piece, loudness))
-        runs += put_phones([], [phone.later(piece[0]) for phone in phones])
-        piece = find_piece(sound, loudness, piece[1])
-    spoken_s = sum(run.end_s - run.start_s for run in runs)
-    return runs if spoken_s > SPEECH_SHARE * loudness.count_loud_s(0.0, sound.length_s) else []
 
 
 def _tell_unspelled(words: Iterable[_Word]) -> list[str]:
