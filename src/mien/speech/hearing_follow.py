@@ -40,6 +40,9 @@ UNEXPLAINED_S = 0.6
 LEAST_AGREEMENT = 0.3
 """Of the words that are recognised, the share that must stand in the text."""
 
+TRUSTED = 20
+"""Words of the text that were heard, from which on it is believed where the sound is not understood."""
+
 MOST_QUOTED = 8
 """Words in a message."""
 
@@ -98,6 +101,7 @@ class Follower:
         self._recogniser: Recogniser | None = None
         self._strange = True  # whether the piece before was none of the text's; nothing heard yet is no excuse
         self._over = False  # whether the text has come to its end
+        self._known = 0  # how many words of the text fitted so far
         self.notices: list[str] = []
 
     def follow(self, report: Report) -> Iterator[HeardWord]:
@@ -136,6 +140,7 @@ class Follower:
         if found and self._explains(found, (start_s, end_s)):
             quiet = self._loudness.loud_db - self._loudness.low_db >= NOISY_DB
             if mean_score(found) <= (POOR_SCORE if quiet else POOR_SCORE_IN_NOISE):
+                self._known += len(found)
                 return self._accept(found, place)
         else:
             found = None
@@ -172,11 +177,17 @@ class Follower:
         merge = merge_words([token.spellings[0].removesuffix(OWN_MARK) for token in ahead], spellings)
         strange = merge.agreed < LEAST_AGREEMENT * len(heard)
         if strange and ahead and self._strange:
-            raise MienError(
-                f"the text is not what is said: {start_s + heard[0].start_s:.1f} s into the sound, where word "
-                f"{place + 1} of the text, {ahead[0].spoken!r}, should come, it says something like "
-                f"{_quote(spellings)} — is it the text of this sound, and in English?"
+            where = (
+                f"{start_s + heard[0].start_s:.1f} s into the sound, where word {place + 1} of the text, "
+                f"{ahead[0].spoken!r}, should come, it says something like {_quote(spellings)}"
             )
+            if self._known < TRUSTED:
+                raise MienError(
+                    f"the text is not what is said: {where} — is it the text of this sound, and in English?"
+                )
+            self.notices.append(f"the text may not be what is said: {where}")
+            if found:
+                return self._accept(found, place)
         if not ahead and not self._over:
             self.notices.append(f"the text ends {start_s + heard[0].start_s:.1f} s into the sound, which goes on")
         self._strange, self._over = strange, not ahead

@@ -9,6 +9,8 @@ from hearing_cases import GARDEN, MARKET, chords, joined, noise, said, words
 from mien.core import MienError, Sound
 from mien.speech import hear
 
+PAUSE = Sound.silence(6.0)
+
 
 def test_a_transcript_of_another_sound_is_refused_with_the_place():
     with pytest.raises(
@@ -81,3 +83,12 @@ def test_a_chord_that_swells_and_fades_moves_no_mouth():
     swell = 0.6 + 0.4 * np.sign(np.sin(4.0 * np.pi * time_s))
     with pytest.raises(MienError, match="no word is heard"):
         hear(Sound((3000.0 * chord * swell).astype(np.int16), rate_hz))
+
+
+def test_a_text_that_was_right_for_long_is_not_refused_for_what_follows():
+    strange = "Nine large ships sailed slowly towards the northern harbour before dawn."
+    sound = joined(*(part for text in (MARKET, GARDEN, strange, strange) for part in (said(text).sound, PAUSE)))
+    wrong = "Perhaps you could explain why everybody left without saying a single word."
+    heard = hear(sound, f"{MARKET} {GARDEN} {wrong} {wrong}")
+    assert words(heard)[:27] == [cue.symbol for text in (MARKET, GARDEN) for cue in said(text).words]
+    assert any("the text may not be what is said" in notice and "word 28" in notice for notice in heard.notices)
