@@ -30,7 +30,7 @@ def palettes() -> Mapping[str, Mapping[str, Rgb]]:
 
 
 def palette_presets() -> dict[str, Preset]:
-    """Each palette as a preset of the colour rows; one without any colour is of the kind ``grey levels``."""
+    """Each palette as a preset of the colour rows; one without any colour is of the kind ``grey level``."""
     out = {}
     for name, colors in palettes().items():
         values = {
@@ -39,6 +39,6 @@ def palette_presets() -> dict[str, Preset]:
             for channel, value in zip(("red", "green", "blue"), rgb, strict=True)
         }
         grey = all(red == green == blue for red, green, blue in colors.values())
-        kind = "grey levels" if grey else "palette"
+        kind = "grey level" if grey else "palette"
         out[name] = Preset(name, kind, values, f"Skin, lips, brows, hair, eyes and garment in {name}.")
     return out
