@@ -9,7 +9,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from mien.core import Face, MienError, Pose, RangeError, Scene, UnknownNameError, exact
-from mien.core.scene import VIEWS, Rgba, Vector
+from mien.core.drawing import Rgba
+from mien.core.scene import VIEWS, Vector
 from mien.formats.rates import check_rate
 from mien.timeline import Rate
 

@@ -1,7 +1,7 @@
 """The types that every part of mien speaks. NumPy only."""
 
 from .cues import SILENCE, Cue
-from .drawing import Drawing, Path
+from .drawing import Drawing, Path, Region
 from .errors import LoadError, MienError, RangeError, UnknownNameError
 from .face import Face, Preset
 from .mesh import Material, Mesh, Part, Topology, build_topology
@@ -32,6 +32,7 @@ __all__ = [
     "Pose",
     "Preset",
     "RangeError",
+    "Region",
     "Rig",
     "Rigged",
     "Scene",

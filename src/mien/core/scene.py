@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from . import exact
+from .drawing import Rgba
 from .errors import RangeError, UnknownNameError
 from .face import Face
 from .parameters import Pose
 
 Vector = tuple[float, float, float]
-Rgba = tuple[float, float, float, float]
 Shading = Literal["smooth", "smooth+", "polygon", "wire"]
 
 SHADINGS: tuple[Shading, ...] = ("smooth", "smooth+", "polygon", "wire")
@@ -30,6 +30,9 @@ VIEWS: Mapping[str, tuple[float, float]] = {
     "side": (90.0, 2.0),
 }
 """Views by name: degrees around the face's own left, degrees upwards."""
+
+BACKGROUND: tuple[Rgba, Rgba] = ((0.32, 0.23, 0.18, 1.0), (0.87, 0.80, 0.73, 1.0))
+"""Linear RGBA at the bottom and at the top of a picture where neither scene nor face says anything."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,8 @@ class Scene:
         at: (x, y, z) m, the point in the middle of the picture.
         fov_deg: field of view along the shorter side.
         size_px: (width, height).
-        background: linear RGBA at the bottom and at the top of the picture; alpha 0 is transparent.
+        background: linear RGBA at the bottom and at the top of the picture; alpha 0 is transparent. None is the face's
+            own, or ``BACKGROUND``.
         lights: none means the default: key, fill and two rims, placed with the viewer.
         ambient: linear RGB that falls from below and from above.
         cosine_power: whole power of the cosine in the diffuse term; Parke's "cosine power".
@@ -71,7 +75,7 @@ class Scene:
     at: Vector = CENTRE
     fov_deg: float = FOV_DEG
     size_px: tuple[int, int] = (1024, 1024)
-    background: tuple[Rgba, Rgba] = ((0.32, 0.23, 0.18, 1.0), (0.87, 0.80, 0.73, 1.0))
+    background: tuple[Rgba, Rgba] | None = None
     lights: tuple[Light, ...] = ()
     ambient: tuple[Vector, Vector] = ((0.075, 0.062, 0.058), (0.125, 0.13, 0.145))
     cosine_power: int = 1
@@ -112,6 +116,12 @@ class Scene:
         way = (sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch)
         x, y, z = (round(a + distance * w, 6) for a, w in zip(self.at, way, strict=True))
         return replace(self, position=(x, y, z))
+
+    def behind(self, own: Rgba | None = None) -> tuple[Rgba, Rgba]:
+        """Linear RGBA at the bottom and at the top of the picture of a face; ``own`` is what it brings along."""
+        if self.background is not None:
+            return self.background
+        return BACKGROUND if own is None else (own, own)
 
     @property
     def lamps(self) -> tuple[Light, ...]:

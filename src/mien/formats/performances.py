@@ -123,7 +123,7 @@ def usual_scene(path: Path | None, scene: Scene) -> Scene:
 
 def is_transparent(scene: Scene) -> bool:
     """Whether something of what is behind a picture shows through."""
-    return min(color[3] for color in scene.background) < 1.0
+    return min(color[3] for color in scene.behind()) < 1.0
 
 
 def write_performance(

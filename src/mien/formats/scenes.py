@@ -44,8 +44,12 @@ def _size(node: Node) -> tuple[int, ...]:
     return tuple(item.integer() for item in node.items(2))
 
 
-def _background(node: Node) -> tuple[tuple[float, ...], ...]:
-    return tuple(tuple(part.number() for part in color.items(4)) for color in node.items(2))
+def _background(node: Node) -> tuple[tuple[float, ...], ...] | None:
+    return (
+        None
+        if node.value is None
+        else tuple(tuple(part.number() for part in color.items(4)) for color in node.items(2))
+    )
 
 
 def _ambient(node: Node) -> tuple[tuple[float, ...], ...]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mien.core import Drawing, Path, Scene
+from mien.core.drawing import Rgba
 from mien.render.pixels import to_srgb
 from mien.render.wire import INK, LINE_SHARE
 
@@ -64,7 +65,9 @@ class VectorPicture:
 
     def to_svg(self) -> str:
         """The text of an SVG file; the same picture has the same text."""
-        return "\n".join([*self._head(), *_background(self.scene), *self._paths(), "</svg>", ""])
+        return "\n".join(
+            [*self._head(), *_background(self.scene.behind(self.drawing.background)), *self._paths(), "</svg>", ""]
+        )
 
     def _repr_svg_(self) -> str:
         return self.to_svg()
@@ -129,8 +132,8 @@ def _thickness(outline: NDArray[np.float64]) -> float:
     return abs(doubled_area) / max(circumference, 1e-9)
 
 
-def _background(scene: Scene) -> Iterator[str]:
-    bottom, top = (np.array(color) for color in scene.background)
+def _background(ends: tuple[Rgba, Rgba]) -> Iterator[str]:
+    bottom, top = (np.array(color) for color in ends)
     if bottom[3] == top[3] == 0.0:
         return
     if (bottom == top).all():

@@ -24,7 +24,7 @@ def draw_drawing(drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
     scale = min(width / drawing.size[0], height / drawing.size[1])
     left = (width - scale * drawing.size[0]) / 2.0
     bottom = (height + scale * drawing.size[1]) / 2.0
-    picture = np.repeat(background(scene)[:, None, :], width, axis=1)
+    picture = np.repeat(background(scene, drawing.background)[:, None, :], width, axis=1)
     for path in drawing.paths:
         contours = [
             np.stack([left + contour[:, 0] * scale, bottom - contour[:, 1] * scale], axis=1)

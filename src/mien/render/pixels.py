@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Scene, exact
+from mien.core.drawing import Rgba
 
 Samples = NDArray[np.int64]
 Bytes = NDArray[np.uint8]
@@ -41,11 +42,11 @@ def srgb_codes() -> Bytes:
     return np.searchsorted(borders, middles, side="right").astype(np.uint8)
 
 
-def background(scene: Scene) -> NDArray[np.float64]:
-    """(H, 4) linear RGBA behind each row of the picture, colour multiplied by alpha."""
+def background(scene: Scene, own: Rgba | None = None) -> NDArray[np.float64]:
+    """(H, 4) linear RGBA behind each row of the picture of a face that brings its ``own`` or none, colour times alpha."""
     height = scene.size_px[1]
     up = 1.0 - (np.arange(height) + 0.5) / height
-    bottom, top = (np.array(color) for color in scene.background)
+    bottom, top = (np.array(color) for color in scene.behind(own))
     rgba = bottom + (top - bottom) * up[:, None]
     rgba[:, :3] *= rgba[:, 3:]
     return rgba

@@ -18,7 +18,7 @@ from mien.core import (
     UnknownNameError,
     fill_rows,
 )
-from mien.core.scene import CENTRE, DISTANCE_M, VIEWS
+from mien.core.scene import BACKGROUND, CENTRE, DISTANCE_M, VIEWS
 
 
 def xyz(group, low=-2.0, high=2.0):
@@ -168,3 +168,10 @@ def test_a_face_without_such_rows_is_left_alone():
 def test_scenes_are_compared_by_value():
     assert Scene() == Scene()
     assert replace(Scene(), fov_deg=20.0) != Scene()
+
+
+def test_behind_a_face_is_what_the_scene_says_or_its_own_or_the_usual():
+    red, blue = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
+    assert Scene().behind() == BACKGROUND
+    assert Scene().behind(red) == (red, red)
+    assert Scene(background=(blue, red)).behind(red) == (blue, red)

@@ -142,7 +142,8 @@ def test_a_face_that_changed_is_noticed(tmp_path: Path) -> None:
 
 def test_every_field_of_a_scene_comes_back() -> None:
     scene = replace(Scene.parke(0.2, 3), target=(0.1, 0.2, 1 / 3), fov_deg=12.5, shading="wire", subdivide=1)
-    assert scene_from_data(json.loads(json.dumps(scene_to_data(scene))), "x") == scene
+    for each in (scene, Scene()):
+        assert scene_from_data(json.loads(json.dumps(scene_to_data(each))), "x") == each
 
 
 @pytest.mark.parametrize(

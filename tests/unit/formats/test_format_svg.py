@@ -96,6 +96,12 @@ def test_a_background_runs_evenly_in_linear_light_from_below() -> None:
     assert (gradient.attrib["y1"], gradient.attrib["y2"]) == ("1", "0")
 
 
+def test_a_drawing_brings_its_own_background() -> None:
+    blue = Drawing((4.0, 4.0), (), (0.0, 0.0, 1.0, 1.0))
+    (rectangle,) = read(VectorPicture(blue, Scene(size_px=(100, 100)))).iter(f"{SPACE}rect")
+    assert rectangle.attrib["fill"] == "#0000ff"
+
+
 def test_two_backgrounds_in_one_page_do_not_share_a_name() -> None:
     names = {
         next(read(VectorPicture(RING, scene(background=(top, WHITE)))).iter(f"{SPACE}linearGradient")).attrib["id"]

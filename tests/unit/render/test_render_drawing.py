@@ -60,6 +60,12 @@ def test_canvas_is_fitted_and_centred_with_y_upwards() -> None:
     assert (picture[12] == [255, 0, 0, 255]).all()
 
 
+def test_a_drawing_brings_its_own_background_which_a_scene_may_replace() -> None:
+    drawing = Drawing((2.0, 1.0), (), (0.0, 0.0, 1.0, 1.0))
+    assert (draw_drawing(drawing, Scene(size_px=(20, 20))) == [0, 0, 255, 255]).all()
+    assert not draw_drawing(drawing, Scene(size_px=(20, 20), background=CLEAR)).any()
+
+
 def test_later_paths_lie_over_earlier_ones_by_their_alpha() -> None:
     half_blue = (0.0, 0.0, 1.0, 0.5)
     paths = (Path("a", (box(0, 0, 4, 4),), RED), Path("b", (box(0, 0, 2, 4),), half_blue))
