@@ -43,7 +43,7 @@ def srgb_codes() -> Bytes:
 
 
 def background(scene: Scene, own: Rgba | None = None) -> NDArray[np.float64]:
-    """(H, 4) linear RGBA behind each row of the picture of a face that brings its ``own`` or none, colour times alpha."""
+    """(H, 4) linear RGBA behind each row of the picture, colour times alpha; ``own`` is what a face brings along."""
     height = scene.size_px[1]
     up = 1.0 - (np.arange(height) + 0.5) / height
     bottom, top = (np.array(color) for color in scene.behind(own))
