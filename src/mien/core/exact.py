@@ -12,9 +12,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-# Taylor coefficients; on |x| <= pi/4 (ln 2 / 2 for exp) the first term left out is below 1e-17.
+# Taylor coefficients; on |x| <= pi/4 (ln 2 / 2 for exp) the first term left out is below 1e-17;
+# so it is for the logarithm on 0.7..1.4.
 _SIN = [(-1.0) ** k / math.factorial(2 * k + 1) for k in range(9)]
 _COS = [(-1.0) ** k / math.factorial(2 * k) for k in range(10)]
+_ARTANH = [1.0 / (2 * k + 1) for k in range(11)]
 _EXP = [1.0 / math.factorial(k) for k in range(15)]
 
 # pi/2 and ln 2 in two parts, the first with trailing zero bits, so that n times it is exact (Cody and Waite).
@@ -82,6 +84,23 @@ def exp(x: ArrayLike) -> NDArray[np.float64]:
     rest = (bounded - powers * _LN2_HIGH) - powers * _LN2_LOW
     value = np.ldexp(_polynomial(_EXP, rest), powers.astype(np.int32))
     return np.where(x < -700.0, 0.0, value)
+
+
+def log(x: ArrayLike) -> NDArray[np.float64]:
+    """Natural logarithm of positive numbers, any shape."""
+    fraction, powers = np.frexp(np.asarray(x, dtype=np.float64))
+    low = fraction < math.sqrt(0.5)
+    fraction, powers = np.where(low, 2.0 * fraction, fraction), np.where(low, powers - 1, powers)
+    # ln f = 2 artanh((f - 1) / (f + 1)), and |(f - 1) / (f + 1)| < 0.172.
+    part = (fraction - 1.0) / (fraction + 1.0)
+    rest = 2.0 * part * _polynomial(_ARTANH, part * part)
+    return (rest + powers * _LN2_LOW) + powers * _LN2_HIGH
+
+
+def power(x: ArrayLike, exponent: float) -> NDArray[np.float64]:
+    """x to a positive exponent, any shape; 0 where x is 0 or less."""
+    base = np.asarray(x, dtype=np.float64)
+    return np.where(base > 0.0, exp(exponent * log(np.where(base > 0.0, base, 1.0))), 0.0)
 
 
 def smoothstep(x: ArrayLike) -> NDArray[np.float64]:

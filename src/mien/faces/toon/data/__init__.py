@@ -1,0 +1,1 @@
+"""Tables and characters of drawn faces."""

@@ -1,0 +1,439 @@
+"""Files of drawn faces, ``name.toon.json``, as records.
+
+The first thing that is wrong ends the reading; ``mien toon check`` tells all that is wrong.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from mien.core import LoadError, MienError, UnknownNameError
+
+from .fields import Fields
+from .lines import ENDS
+from .motors import motors, paper_codes
+from .outlines import parse_path, polygon_outline, same_pieces
+from .records import (
+    KINDS,
+    LAYERS,
+    Character,
+    Depth,
+    Driver,
+    Feature,
+    Head,
+    Kind,
+    Layer,
+    Limits,
+    Line,
+    Mode,
+    Outline,
+    Point,
+    Polygon,
+    Profile,
+    Shift,
+    State,
+    Touch,
+)
+from .table import PROPORTIONS
+
+FORMAT, VERSION = "mien-toon", 1
+MODES: tuple[Mode, ...] = ("strict", "extended")
+
+MOST_BYTES = 20_000_000
+MOST_POINTS = 100_000
+"""More than any drawing needs; less than what stops a machine."""
+
+COLOR = re.compile(r"#[0-9a-fA-F]{6}")
+
+FEATURE_POINTS: Mapping[str, tuple[str, ...]] = {
+    "BR": ("BRL", "BRC", "BRM"),
+    "BL": ("BLL", "BLC", "BLM"),
+    "ER": ("ERO", "ERU", "ERI", "ERL"),
+    "EL": ("ELO", "ELU", "ELI", "ELL"),
+    "PR": ("PR",),
+    "PL": ("PL",),
+    "M": ("MR", "MT", "ML", "MB"),
+    "N": ("N",),
+    "AR": ("AR",),
+    "AL": ("AL",),
+}
+PAPER_FEATURES = ("BR", "BL", "ER", "EL", "PR", "PL", "M")
+
+
+def read_toon(path: Path) -> Character:
+    """The character in a file.
+
+    Raises:
+        LoadError: it cannot be read or understood; names the place in the file.
+    """
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise LoadError(path, f"is larger than {MOST_BYTES // 1_000_000} MB")
+        return parse_toon(path.read_text(encoding="utf-8-sig"), str(path))
+    except OSError as error:
+        raise LoadError(path, error.strerror or str(error)) from None
+    except UnicodeDecodeError:
+        raise LoadError(path, "is not a text in UTF-8") from None
+
+
+def parse_toon(text: str, place: str) -> Character:
+    """The character in the text of a file.
+
+    Raises:
+        LoadError: it cannot be understood.
+    """
+    try:
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise LoadError(place, f"is not JSON: {error.msg}", line=error.lineno) from None
+    except RecursionError:
+        raise LoadError(place, "is nested too deeply") from None
+    try:
+        return _character(Fields(document, ""))
+    except LoadError:
+        raise
+    except MienError as error:
+        raise LoadError(place, str(error), hint=f"mien toon check {place} tells all that is wrong") from None
+
+
+def _character(fields: Fields) -> Character:
+    if fields.text("format") != FORMAT:
+        raise fields.error("format", f"is not {FORMAT!r}")
+    if fields.number("version") != VERSION:
+        raise fields.error("version", f"is not {VERSION}, the only one that is known")
+    mode = fields.choice("mode", MODES, "extended")
+    palette = {name: _color(fields.inner("palette"), name) for name in fields.inner("palette").keys}
+    fields.inner("palette").done()
+    features = {name: _feature(each, name) for name, each in fields.group("features")}
+    limits = {code: _limits(each, code) for code, each in fields.group("motors")}
+    for name in PAPER_FEATURES:
+        if name not in features:
+            raise fields.error("features", f"want {name!r}, one of the seven features, but it is missing")
+    for code in paper_codes():
+        if code not in limits:
+            raise fields.error("motors", f"want limits of {code!r}, one of the 21 motors, but there are none")
+    head = _head(fields.inner("head"))
+    reader = _Polygons(mode, palette, features, limits)
+    parts = {name: tuple(reader.drivers(each)) for name, each in fields.lists("parts")}
+    polygons = tuple(reader.polygon(each, parts) for each in fields.items("polygons"))
+    _check_clips(polygons, fields)
+    character = Character(
+        fields.text("name"),
+        _positive(fields, "size"),
+        reader.fill(fields, "background"),
+        palette,
+        head,
+        features,
+        limits,
+        polygons,
+        mode,
+        fields.text("doc", ""),
+        fields.text("license", ""),
+        {name: dict(_variant(each, palette)) for name, each in fields.group("palettes")},
+        parts,
+        {name: dict(_expression(each, limits)) for name, each in fields.group("expressions")},
+        dict(_proportions(fields.inner("proportions"))) if "proportions" in fields.keys else {},
+    )
+    fields.done()
+    return character
+
+
+def _positive(fields: Fields, key: str) -> Point:
+    width, height = fields.point(key)
+    if not (0.0 < width <= 1e5 and 0.0 < height <= 1e5):
+        raise fields.error(key, f"want two sides above 0, got {width:g} and {height:g}")
+    return width, height
+
+
+def _color(fields: Fields, key: str) -> str:
+    code = fields.text(key)
+    if not COLOR.fullmatch(code):
+        raise fields.error(key, f"{code!r} is not a colour such as #2A4F63")
+    return code
+
+
+def _variant(fields: Fields, palette: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    for name in fields.keys:
+        if name not in palette:
+            raise UnknownNameError(f"{fields.place}: colour", name, palette)
+        yield name, _color(fields, name)
+
+
+def _expression(fields: Fields, limits: Mapping[str, Limits]) -> Iterator[tuple[str, float]]:
+    for code in fields.keys:
+        if code not in limits:
+            raise UnknownNameError(f"{fields.place}: motor", code, limits)
+        low, high = (limits[code].low_deg, limits[code].high_deg) if motors()[code].unit == "deg" else (0.0, 1.0)
+        low = -1.0 if motors()[code].unit == "signed" else low
+        value = fields.number(code)
+        if not low <= value <= high:
+            raise fields.error(code, f"{value:g} is out of range — it goes from {low:g} to {high:g}")
+        yield code, value
+
+
+def _proportions(fields: Fields) -> Iterator[tuple[str, tuple[float, float]]]:
+    for name in fields.keys:
+        if name not in PROPORTIONS:
+            raise UnknownNameError(f"{fields.place}: proportion", name, PROPORTIONS)
+        low, high = fields.point(name)
+        if not low <= PROPORTIONS[name][0] <= high:
+            raise fields.error(name, f"want limits around {PROPORTIONS[name][0]:g}, got {low:g} and {high:g}")
+        if PROPORTIONS[name][1] == "factor" and low < 0.1:
+            raise fields.error(name, f"want factors of at least 0.1, got {low:g}")
+        yield name, (low, high)
+
+
+def _head(fields: Fields) -> Head:
+    center = fields.point("center")
+    head = Head(
+        center,
+        _positive(fields, "radius"),
+        fields.point("pivot", center),
+        Depth(fields.number("depth", 0.0), fields.number("bulge", 0.0), fields.number("shorten", 0.0)),
+    )
+    fields.done()
+    return head
+
+
+def _feature(fields: Fields, name: str) -> Feature:
+    if name not in FEATURE_POINTS:
+        raise UnknownNameError("feature", name, FEATURE_POINTS)
+    inner = fields.inner("points")
+    points = {point: inner.point(point) for point in FEATURE_POINTS[name]}
+    inner.done()
+    feature = Feature(
+        name,
+        points,
+        fields.flag("smooth"),
+        _profile(fields, "profile") or Profile(),
+        _profile(fields, "profile_open"),
+        _profile(fields, "profile_shut"),
+        fields.knots("shape") if "shape" in fields.keys else (),
+        _depth(fields),
+    )
+    fields.done()
+    return feature
+
+
+def _profile(fields: Fields, key: str) -> Profile | None:
+    if key not in fields.keys:
+        return None
+    p, q = fields.point(key)
+    if not (0.2 <= p <= 20.0 and 0.2 <= q <= 20.0):
+        raise fields.error(key, f"want two exponents from 0.2 to 20, got {p:g} and {q:g}")
+    return Profile(p, q)
+
+
+def _depth(fields: Fields) -> Depth | None:
+    if not {"depth", "bulge", "shorten"} & set(fields.keys):
+        return None
+    return Depth(fields.number("depth", 0.0), fields.number("bulge", 0.0), fields.number("shorten", 0.0))
+
+
+def _limits(fields: Fields, code: str) -> Limits:
+    if code not in motors():
+        raise UnknownNameError("motor", code, motors())
+    limits = Limits(*(fields.number(key, 0.0) for key in ("min", "max", "min_deg", "max_deg")))
+    pairs = [("min", "max", limits.low, limits.high), ("min_deg", "max_deg", limits.low_deg, limits.high_deg)]
+    for low, high, least, most in pairs:
+        if least > most:
+            raise fields.error(low, f"the minimum {least:g} is above the maximum {most:g}")
+        if not least <= 0.0 <= most:
+            raise fields.error(low, f"rest, 0, is not between {least:g} and {most:g}")
+    if motors()[code].unit == "deg" and not limits.high_deg > limits.low_deg:
+        raise fields.error("max_deg", "a motor that is measured in degrees wants min_deg and max_deg")
+    if max(-limits.low_deg, limits.high_deg) > 89.0:
+        raise fields.error("max_deg", "want less than 90 degrees to either side")
+    fields.done()
+    return limits
+
+
+class _Polygons:
+    """Reads polygons, which name colours, features, motors and one another."""
+
+    def __init__(
+        self, mode: Mode, palette: Mapping[str, str], features: Mapping[str, Feature], limits: Mapping[str, Limits]
+    ) -> None:
+        self.mode, self.palette, self.features, self.limits = mode, palette, features, limits
+        self._seen: set[str] = set()
+        self._points = 0
+
+    def fill(self, fields: Fields, key: str) -> str:
+        """A colour of the palette, or one by its code."""
+        name = fields.text(key)
+        if name not in self.palette and not COLOR.fullmatch(name):
+            raise UnknownNameError(f"{fields.at(key)}: colour", name, self.palette)
+        return name
+
+    def polygon(self, fields: Fields, parts: Mapping[str, tuple[Driver, ...]]) -> Polygon:
+        """One polygon of the file.
+
+        Raises:
+            MienError: it cannot be understood.
+        """
+        name = fields.text("id")
+        if name in self._seen:
+            raise fields.error("id", f"{name!r} is the id of another polygon")
+        self._seen.add(name)
+        kind: Kind = fields.choice("kind", KINDS)
+        path, low, high = (self._outline(fields, key) for key in ("path", "min", "max"))
+        layer: Layer = fields.choice("layer", LAYERS, kind)
+        polygon = Polygon(
+            id=name,
+            kind=kind,
+            fill=self.fill(fields, "fill"),
+            layer=layer,
+            path=path,
+            low=low,
+            high=high,
+            motor=self._known(fields, "motor", self.limits),
+            feature=self._known(fields, "feature", self.features),
+            line=fields.choice("line", ("", "upper", "lower"), ""),
+            span=self._span(fields),
+            stroke=self.line(fields.inner("stroke")) if "stroke" in fields.keys else None,
+            width=fields.knots("width") if "width" in fields.keys else (),
+            closed=fields.flag("closed"),
+            follow=fields.number("follow", 1.0),
+            reach=fields.number("reach") if "reach" in fields.keys else None,
+            drivers=tuple(self.drivers(list(fields.items("drivers")))) if "drivers" in fields.keys else (),
+            point=self._known(fields, "with", self._control_points()) or self._pupil(kind, fields),
+            dilate=fields.number("dilate") if "dilate" in fields.keys else None,
+            fade=self._known(fields, "fade", ("ER", "EL")),
+            clip=fields.names("clip"),
+            rule=fields.choice("rule", ("evenodd", "nonzero"), "evenodd" if self.mode == "strict" else "nonzero"),
+            depth=_depth(fields),
+            body=fields.flag("body"),
+            part=self._known(fields, "part", parts),
+            opacity=fields.number("opacity", 1.0),
+        )
+        self._check(polygon, fields)
+        fields.done()
+        return polygon
+
+    def _check(self, polygon: Polygon, fields: Fields) -> None:
+        sources = [bool(polygon.path), bool(polygon.low or polygon.high), polygon.span is not None]
+        if sum([*sources, polygon.stroke is not None]) != 1:
+            raise fields.error("", "want one of path, min and max, span, stroke")
+        if polygon.low or polygon.high:
+            if not (polygon.low and polygon.high and polygon.motor):
+                raise fields.error("", "want both states, min and max, and the motor between them")
+            if not same_pieces(polygon.low, polygon.high):
+                raise fields.error("max", "has other path commands than min, so one cannot become the other")
+        if polygon.stroke is not None and not polygon.width:
+            raise fields.error("width", "a stroke wants a width")
+        if polygon.kind in ("feature", "pupil") and polygon.path and not polygon.feature:
+            raise fields.error("feature", f"a polygon of kind {polygon.kind!r} is attached to one, but none is named")
+        for driver in polygon.drivers:
+            for state in (driver.low, driver.high):
+                if isinstance(state, tuple) and not same_pieces(polygon.path, state):
+                    raise fields.error("drivers", f"a state at {driver.motor} has other path commands than the path")
+        if not 0.0 <= polygon.opacity <= 1.0:
+            raise fields.error("opacity", f"{polygon.opacity:g} is out of range — it goes from 0 to 1")
+
+    def _control_points(self) -> tuple[str, ...]:
+        return tuple(point for feature in self.features.values() for point in feature.points)
+
+    def _pupil(self, kind: str, fields: Fields) -> str:
+        """Pupils go along with their control point."""
+        return fields.text("feature", "") if kind == "pupil" else ""
+
+    def _span(self, fields: Fields) -> tuple[Line, Line] | None:
+        if "span" not in fields.keys:
+            return None
+        lines = [self.line(each) for each in fields.items("span")]
+        if len(lines) != 2:
+            raise fields.error("span", f"want two lines, got {len(lines)}")
+        return lines[0], lines[1]
+
+    def line(self, fields: Fields) -> Line:
+        """A stretch of a feature's line."""
+        feature = self._known(fields, "feature", [name for name in self.features if name in ENDS])
+        if not feature:
+            raise fields.error("feature", "is missing: which feature's line?")
+        offset_by = None
+        if "offset_by" in fields.keys:
+            inner = fields.inner("offset_by")
+            offset_by = (self._known(inner, "motor", self.limits), inner.number("share"))
+            inner.done()
+        held = fields.inner("at") if "at" in fields.keys else None
+        line = Line(
+            feature,
+            fields.choice("line", ("upper", "lower"), "upper") == "lower",
+            fields.knots("offset") if "offset" in fields.keys else ((0.0, 0.0),),
+            offset_by,
+            {code: held.number(code) for code in held.keys} if held is not None else {},
+            *fields.point("range", (-1.0, 1.0)),
+            int(fields.number("count", 28)),
+        )
+        for code in line.at:
+            if code not in self.limits:
+                raise UnknownNameError(f"{fields.at('at')}: motor", code, self.limits)
+        if not 2 <= line.count <= 400:
+            raise fields.error("count", f"want 2 to 400 pieces, got {line.count}")
+        fields.done()
+        return line
+
+    def drivers(self, items: list[Fields]) -> Iterator[Driver]:
+        """What motors do to an outline."""
+        for fields in items:
+            motor = self._known(fields, "motor", self.limits)
+            if not motor:
+                raise fields.error("motor", "is missing: which motor moves it?")
+            driver = Driver(motor, self._state(fields, "min"), self._state(fields, "max"))
+            fields.done()
+            yield driver
+
+    def _state(self, fields: Fields, key: str) -> State | None:
+        if key not in fields.keys:
+            return None
+        if not fields.is_group(key):
+            return self._outline(fields, key)
+        inner = fields.inner(key)
+        state: State
+        if "touch" in inner.keys:
+            state = Touch(self.line(inner.inner("touch")), inner.number("offset", 0.0))
+        else:
+            ramp = inner.point("ramp") if "ramp" in inner.keys else None
+            if ramp is not None and ramp[0] == ramp[1]:
+                raise inner.error("ramp", "wants two different heights")
+            state = Shift(
+                inner.point("move", (0.0, 0.0)),
+                inner.number("rotate", 0.0),
+                inner.point("scale", (1.0, 1.0)),
+                inner.point("about", (0.0, 0.0)),
+                ramp,
+            )
+        inner.done()
+        return state
+
+    def _outline(self, fields: Fields, key: str) -> Outline:
+        if key not in fields.keys:
+            return ()
+        value = fields.raw(key)
+        try:
+            outline = parse_path(value) if isinstance(value, str) else polygon_outline(fields.points(key))
+        except MienError as error:
+            raise fields.error(key, str(error)) from None
+        self._points += len(outline)
+        if self._points > MOST_POINTS:
+            raise fields.error(key, f"the drawing has more than {MOST_POINTS:,} points")
+        return outline
+
+    def _known(self, fields: Fields, key: str, known: Any) -> str:
+        name = fields.text(key, "")
+        if name and name not in known:
+            raise UnknownNameError(f"{fields.at(key)}: {key}", name, known)
+        return name
+
+
+def _check_clips(polygons: tuple[Polygon, ...], fields: Fields) -> None:
+    names = [polygon.id for polygon in polygons]
+    for number, polygon in enumerate(polygons):
+        for name in polygon.clip:
+            if name not in names:
+                raise UnknownNameError(f"{fields.at('polygons')}[{number}].clip: polygon", name, names)
+
