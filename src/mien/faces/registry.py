@@ -1,4 +1,4 @@
-"""Faces by address: ``head``, ``head:ada``, ``ada.face.json``. The only place that names the kinds."""
+"""Faces by address: ``head``, ``head:ada``, ``toon:olav``, ``ada.face.json``. The only place that names the kinds."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from pathlib import Path
 from mien.core import Face, LoadError, MienError, UnknownNameError
 
 from .head.people import address, people, read_head, shipped_head
+from .toon.shipped import shipped_toon, toon_from_file, toons
 
-SUFFIXES: Mapping[str, Callable[[Path], Face]] = {".face.json": read_head}
-KINDS: Mapping[str, Callable[[str], Face]] = {"head": shipped_head}
+SUFFIXES: Mapping[str, Callable[[Path], Face]] = {".face.json": read_head, ".toon.json": toon_from_file}
+KINDS: Mapping[str, Callable[[str], Face]] = {"head": shipped_head, "toon": shipped_toon}
 
 
 def face_names() -> list[tuple[str, str]]:
     """(address, what it is) of every face that is installed."""
-    return [(address(name), row["doc"]) for name, row in people().items()]
+    return [*((address(name), row["doc"]) for name, row in people().items()), *toons().items()]
 
 
 def load_face(name: str | os.PathLike[str]) -> Face:

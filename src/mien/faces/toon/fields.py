@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any, TypeVar
 
 from mien.core import MienError, UnknownNameError
@@ -103,7 +104,7 @@ class Fields:
         if not isinstance(value, list):
             return ((0.0, self.number(key)),)
         pairs = [Fields({"": each}, self.at(key)).point("") for each in value]
-        if not pairs or any(one[0] >= other[0] for one, other in zip(pairs, pairs[1:], strict=False)):
+        if not pairs or any(one[0] >= other[0] for one, other in pairwise(pairs)):
             raise self.error(key, "want a number, or pairs [place, value] with places in order")
         return tuple(pairs)
 

@@ -215,4 +215,3 @@ def _neighbours(line: Floats) -> tuple[Floats, Floats]:
 def _length(points: Floats) -> float:
     steps = np.diff(points, axis=0)
     return float(np.sqrt((steps * steps).sum(axis=1)).sum())
-

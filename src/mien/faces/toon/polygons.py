@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
@@ -13,7 +13,7 @@ from mien.core import exact
 from .equations import between_states, joint_shares, place_along, put_along
 from .lines import BROWS, ENDS, MOUTH, Moment, line_points, trace_line
 from .motors import motors
-from .outlines import flatten, look_up, piece_steps, ribbon
+from .outlines import flatten, piece_steps, ribbon
 from .records import Character, Driver, Feature, Floats, Outline, Polygon, Shift, Touch
 
 Contours = tuple[Floats, ...]
@@ -93,7 +93,7 @@ class Shape:
         if polygon.point:
             yield self._move_along
         for driver in self._drivers:
-            yield lambda points, moment, driver=driver: self._drive(points, moment, driver)
+            yield partial(self._drive, driver)
 
     def _follow_lines(self, feature: Feature) -> Change:
         """Vertices keep their place along the straight lines and their distance from them (A1.3, A1.4)."""
@@ -144,7 +144,7 @@ class Shape:
         center = np.array(self._character.features[self.polygon.feature].points[self.polygon.feature])
         return center + (points - center) * np.array([factor, 1.0 + 0.25 * (factor - 1.0)])
 
-    def _drive(self, points: Floats, moment: Moment, driver: Driver) -> Floats:
+    def _drive(self, driver: Driver, points: Floats, moment: Moment) -> Floats:
         """What one motor does to the outline, in proportion to how far it has gone (A1.5, A1.6)."""
         value = moment.activation(driver.motor)
         state, share = (driver.high if value > 0.0 else driver.low), min(abs(value), 1.0)
@@ -223,4 +223,3 @@ def _motors(polygon: Polygon, character: Character, drivers: Iterable[Driver]) -
         yield polygon.motor
     if polygon.dilate is not None:
         yield "PD"
-

@@ -20,7 +20,7 @@ class Proportions:
     def __init__(self, character: Character, polygons: Sequence[tuple[Polygon, int]]) -> None:
         """Polygons in drawing order, each with the number of its vertices."""
         self._character = character
-        self._features = [polygon.body and "body" or feature_of(polygon, character) for polygon, _ in polygons]
+        self._features = ["body" if polygon.body else feature_of(polygon, character) for polygon, _ in polygons]
         self._counts = [count for _, count in polygons]
 
     def apply(self, points: Floats, pose: Pose) -> Floats:

@@ -238,8 +238,7 @@ def _limits(fields: Fields, code: str) -> Limits:
     if code not in motors():
         raise UnknownNameError("motor", code, motors())
     limits = Limits(*(fields.number(key, 0.0) for key in ("min", "max", "min_deg", "max_deg")))
-    pairs = [("min", "max", limits.low, limits.high), ("min_deg", "max_deg", limits.low_deg, limits.high_deg)]
-    for low, high, least, most in pairs:
+    for low, least, most in (("min", limits.low, limits.high), ("min_deg", limits.low_deg, limits.high_deg)):
         if least > most:
             raise fields.error(low, f"the minimum {least:g} is above the maximum {most:g}")
         if not least <= 0.0 <= most:
@@ -436,4 +435,3 @@ def _check_clips(polygons: tuple[Polygon, ...], fields: Fields) -> None:
         for name in polygon.clip:
             if name not in names:
                 raise UnknownNameError(f"{fields.at('polygons')}[{number}].clip: polygon", name, names)
-

@@ -66,7 +66,7 @@ class Head:
 
 @dataclass(frozen=True)
 class Profile:
-    """How a line runs from its middle point to its ends: weight (1 - |s|^p)^(1/q); (1, 1) is the paper's straight line."""
+    """How a line leaves its middle point for its ends: by (1 - |s|^p)^(1/q); (1, 1) is the paper's straight line."""
 
     p: float = 1.0
     q: float = 1.0

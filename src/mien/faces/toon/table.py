@@ -57,7 +57,15 @@ def _motor_row(motor: Motor, limits: Limits) -> Parameter:
     source = f"{SOURCE}, motor {motor.code}" if motor.paper else OWN
     default = resting_share(motor.code, limits)
     return Parameter(
-        motor.parameter, low, high, default, "deg" if motor.unit == "deg" else "share", group, motor.odd, f"{motor.doc[:-1]} ({motor.code}).", source
+        motor.parameter,
+        low,
+        high,
+        default,
+        "deg" if motor.unit == "deg" else "share",
+        group,
+        motor.odd,
+        f"{motor.doc[:-1]} ({motor.code}).",
+        source,
     )
 
 
@@ -77,7 +85,15 @@ def _viewer_rows() -> Iterator[Parameter]:
     for axis, low, default in (("x", -VIEWER_M, 0.0), ("y", -VIEWER_M, 0.0), ("z", 0.1, 1.0)):
         doc = f"Where the viewer is: {axis} from the middle of the head."
         yield Parameter(
-            f"viewer.{axis}", low, VIEWER_M, default, "m", "viewer", doc=doc, source="Parke 1974, section 3.5", odd=axis == "x"
+            f"viewer.{axis}",
+            low,
+            VIEWER_M,
+            default,
+            "m",
+            "viewer",
+            doc=doc,
+            source="Parke 1974, section 3.5",
+            odd=axis == "x",
         )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from importlib import resources
+from itertools import pairwise
 
 import numpy as np
 
@@ -96,9 +97,7 @@ class ToonFace:
     @cached_property
     def _turning(self) -> np.ndarray:
         """(N,) which vertices turn with the head."""
-        return np.concatenate(
-            [np.full(sum(map(len, shape.rest)), not shape.polygon.body) for shape in self._shapes]
-        )
+        return np.concatenate([np.full(sum(map(len, shape.rest)), not shape.polygon.body) for shape in self._shapes])
 
     @cached_property
     def _proportions(self) -> Proportions:
@@ -115,7 +114,7 @@ class ToonFace:
             points[self._turning] = turned
         points = np.stack([points[:, 0], self.character.size[1] - points[:, 1]], axis=1)
         starts = [0, *(end for ends in self._ends for end in ends)]
-        pieces = iter([points[start:end] for start, end in zip(starts, starts[1:], strict=False)])
+        pieces = iter([points[start:end] for start, end in pairwise(starts)])
         return [tuple(next(pieces) for _ in ends) for ends in self._ends]
 
     def _draw(self, placed: Sequence[Contours], pose: Pose) -> Drawing:
