@@ -1,0 +1,1 @@
+"""The drawn face: flat polygons on control points, after ToonFace (Thórisson 1996)."""
