@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import faces, lipsync, params, play, presets, render, say, vocab, voices, warmup
+from . import faces, lipsync, params, play, presets, render, say, toon, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -29,6 +29,7 @@ for command in (
     voices.voices,
 ):
     app.command()(command)
+app.add_typer(toon.app, name="toon")
 app.command()(warmup.warmup)
 
 

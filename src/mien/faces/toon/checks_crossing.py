@@ -17,9 +17,9 @@ PAIRS = 1 << 18
 NEAR = 1e-9
 """Share of the outline's extent below which a vertex lies on an edge."""
 
-_ANGLES = np.arange(8) * (np.pi / 8.0)
+_ANGLES = np.arange(4) * (np.pi / 4.0)
 DIRECTIONS = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=1)
-"""(8, 2) in which the extents of edges are compared."""
+"""(4, 2) in which the extents of edges are compared, besides along and across most of them."""
 
 
 @dataclass(frozen=True)
@@ -61,12 +61,11 @@ def find_crossings(outline: Floats) -> Iterator[Crossing]:
 
 def _pairs(points: Floats, near: float) -> Iterator[tuple[Integers, Integers]]:
     """Numbers of the edges of pairs whose extents overlap in all directions, the lower number first."""
-    ends = np.stack([points, np.roll(points, -1, axis=0)]) @ DIRECTIONS.T
+    directions = np.concatenate([_main_directions(points), DIRECTIONS])
+    ends = np.stack([points, np.roll(points, -1, axis=0)]) @ directions.T
     low, high = ends.min(axis=0) - near, ends.max(axis=0) + near
     orders = np.argsort(low, axis=0, kind="stable")
-    until = [
-        np.searchsorted(low[order, axis], high[order, axis], "right") for axis, order in enumerate(orders.T)
-    ]
+    until = [np.searchsorted(low[order, axis], high[order, axis], "right") for axis, order in enumerate(orders.T)]
     best = int(np.argmin([each.sum() for each in until]))
     order, counts = orders[:, best], until[best] - np.arange(1, len(points) + 1)
     starts = np.concatenate([[0], np.cumsum(counts)])
@@ -75,13 +74,21 @@ def _pairs(points: Floats, near: float) -> Iterator[tuple[Integers, Integers]]:
         end = max(int(np.searchsorted(starts, starts[begin] + PAIRS, "right")) - 1, begin + 1)
         rows = np.repeat(np.arange(begin, end), counts[begin:end])
         one, other = order[rows], order[rows + 1 + np.arange(len(rows)) - (starts[rows] - starts[begin])]
-        for axis in range(len(DIRECTIONS)):
+        for axis in range(len(directions)):
             overlap = (low[one, axis] <= high[other, axis]) & (low[other, axis] <= high[one, axis])
             one, other = one[overlap], other[overlap]
         first, second = np.minimum(one, other), np.maximum(one, other)
         apart = (second - first > 1) & (second - first < len(points) - 1)
         yield first[apart], second[apart]
         begin = end
+
+
+def _main_directions(points: Floats) -> Floats:
+    """(2, 2) along and across the edges, longer ones counting more; opposite directions are the same."""
+    along = np.roll(points, -1, axis=0) - points
+    double = np.arctan2(2.0 * (along[:, 0] * along[:, 1]).sum(), (along[:, 0] ** 2 - along[:, 1] ** 2).sum())
+    cosine, sine = np.cos(0.5 * double), np.sin(0.5 * double)
+    return np.array([[-sine, cosine], [cosine, sine]])
 
 
 def _next(points: Floats, numbers: Integers) -> Floats:

@@ -92,6 +92,8 @@ def parse_toon(text: str, place: str) -> Character:
         raise LoadError(place, f"is not JSON: {error.msg}", line=error.lineno) from None
     except RecursionError:
         raise LoadError(place, "is nested too deeply") from None
+    except ValueError:  # of Python itself
+        raise LoadError(place, "has a number of thousands of digits") from None
     try:
         return _character(Fields(document, ""))
     except LoadError:
@@ -103,6 +105,7 @@ def parse_toon(text: str, place: str) -> Character:
 def _character(fields: Fields) -> Character:
     if fields.text("format") != FORMAT:
         raise fields.error("format", f"is not {FORMAT!r}")
+    fields.text("$schema", "")  # for editors of JSON
     if fields.number("version") != VERSION:
         raise fields.error("version", f"is not {VERSION}, the only one that is known")
     mode = fields.choice("mode", MODES, "extended")
