@@ -41,6 +41,10 @@ SHAPE_FADES, SHAPE_PURSED = 1.6, 0.75
 """How fast the shape of a mouth's lower line fades as it opens, and how much of both goes as it purses: our choice."""
 
 
+OFFSET_GOES = 2.2
+"""An offset that a motor shrinks is small before the motor is at its minimum: our choice."""
+
+
 @dataclass(frozen=True, eq=False)
 class Moment:
     """What the motors of a character do at one moment.
@@ -157,42 +161,76 @@ def _offset(limits: Limits, value: float) -> float:
     return end * share
 
 
-def line_points(moment: Moment, feature: Feature, places: Floats, *, lower: bool) -> Floats:
-    """(N, 2) points of a feature's line at places (N,), -1..1 between its ends.
+class Track:
+    """Places on a feature's line, -1..1 between its ends, with all that no pose changes."""
 
-    With straight profiles this is A1.3 and A1.4 without their slope: X SL + IYL is V0 + vrl (V1 - V0), which also an
-    upright line has.
-    """
-    left, middle, right = moment.ends(feature.name, lower=lower)
-    side = places < 0.0
-    end_x, end_y = (np.where(side, left[k], right[k]) for k in (0, 1))
-    s = np.abs(places)
-    x = middle[0] + s * (end_x - middle[0])
-    if feature.smooth:
+    def __init__(self, feature: Feature, places: Floats) -> None:
+        self.feature, self._places = feature, places
+        self._left, self._s = places < 0.0, np.abs(places)
+        self._rest, self._round = (profile_weights(each, self._s) for each in (feature.profile, ROUND))
+        self._open, self._shut = (
+            None if each is None else profile_weights(each, self._s)
+            for each in (feature.profile_open, feature.profile_shut)
+        )
+        self._shape = look_up(feature.shape, places) if feature.shape else None
         t = places
-        y = 0.5 * t * (t - 1.0) * left[1] + (1.0 - t * t) * middle[1] + 0.5 * t * (t + 1.0) * right[1]
-    else:
-        y = end_y + (middle[1] - end_y) * _weights(moment, feature, s)
-    if feature.shape:
-        opening = moment.mouth_opening
-        share = max(0.0, 1.0 - SHAPE_FADES * opening) if lower else 1.0
-        share *= 1.0 - SHAPE_PURSED * moment.pursing * min(1.0, 2.0 * opening)
-        y = y + share * look_up(feature.shape, places)
-    return np.stack([x, y], axis=1)
+        self._curve = (0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0))
+
+    def points(self, moment: Moment, *, lower: bool) -> Floats:
+        """(N, 2) where the places are.
+
+        With straight profiles this is A1.3 and A1.4 without their slope: X SL + IYL is V0 + vrl (V1 - V0), which also
+        an upright line has.
+        """
+        left, middle, right = moment.ends(self.feature.name, lower=lower)
+        points = np.empty((len(self._places), 2))
+        points[:, 0] = middle[0] + self._s * (np.where(self._left, left[0], right[0]) - middle[0])
+        if self.feature.smooth:
+            points[:, 1] = self._curve[0] * left[1] + self._curve[1] * middle[1] + self._curve[2] * right[1]
+        else:
+            end = np.where(self._left, left[1], right[1])
+            points[:, 1] = end + (middle[1] - end) * self._weights(moment)
+        if self._shape is not None:
+            opening = moment.mouth_opening
+            share = max(0.0, 1.0 - SHAPE_FADES * opening) if lower else 1.0
+            share *= 1.0 - SHAPE_PURSED * moment.pursing * min(1.0, 2.0 * opening)
+            points[:, 1] += share * self._shape
+        return points
+
+    def _weights(self, moment: Moment) -> Floats:
+        """(N,) weight of the middle point."""
+        weights, opened, shut = self._rest, self._open, self._shut
+        if opened is not None:
+            share = min(1.0, moment.mouth_opening / OPENS_AT)
+            weights = weights + share * (opened - weights)
+            weights = weights + share * min(1.0, 1.4 * moment.pursing) * (self._round - weights)
+        if shut is not None:
+            weights = weights + max(0.0, 1.0 - moment.eye_opening(self.feature.name) / SHUTS_AT) * (shut - weights)
+        return weights
 
 
-def _weights(moment: Moment, feature: Feature, s: Floats) -> Floats:
-    """Weight of the middle point at a share ``s`` (N,) of the way to an end."""
-    weights = profile_weights(feature.profile, s)
-    if feature.profile_open is not None:
-        opened = min(1.0, moment.mouth_opening / OPENS_AT)
-        weights = weights + opened * (profile_weights(feature.profile_open, s) - weights)
-        round_share = opened * min(1.0, 1.4 * moment.pursing)
-        weights = weights + round_share * (profile_weights(ROUND, s) - weights)
-    if feature.profile_shut is not None:
-        shut = max(0.0, 1.0 - moment.eye_opening(feature.name) / SHUTS_AT)
-        weights = weights + shut * (profile_weights(feature.profile_shut, s) - weights)
-    return weights
+class Stretch:
+    """A stretch of a line that can be traced in any pose."""
+
+    def __init__(self, line: Line, feature: Feature) -> None:
+        self.line = line
+        share = np.arange(line.count + 1) / line.count
+        # Points lie closer to one another towards the ends, where lines bend most.
+        places = line.start + (line.end - line.start) * 0.5 * (exact.sin(np.pi * (share - 0.5)) + 1.0)
+        self._track = Track(feature, places)
+        self._offset = look_up(line.offset, places)
+
+    def points(self, moment: Moment) -> Floats:
+        """(N, 2) points from its start to its end."""
+        points = self._track.points(moment.held_at(self.line.at), lower=self.line.lower)
+        points[:, 1] += self._offset * self._left_of_offset(moment)
+        return points
+
+    def _left_of_offset(self, moment: Moment) -> float:
+        if self.line.offset_by is None:
+            return 1.0
+        code, left = self.line.offset_by
+        return 1.0 - (1.0 - left) * min(max(-OFFSET_GOES * moment.activation(code), 0.0), 1.0)
 
 
 def profile_weights(profile: Profile, s: Floats) -> Floats:
@@ -209,21 +247,6 @@ def _power(x: Floats, exponent: float) -> Floats:
     if exponent == 2.0:
         return x * x
     return np.sqrt(x) if exponent == 0.5 else exact.power(x, exponent)
-
-
-def trace_line(moment: Moment, line: Line) -> Floats:
-    """(N, 2) points of a stretch of a line."""
-    moment = moment.held_at(line.at)
-    share = np.arange(line.count + 1) / line.count
-    # Points lie closer to one another towards the ends, where lines bend most.
-    places = line.start + (line.end - line.start) * 0.5 * (exact.sin(np.pi * (share - 0.5)) + 1.0)
-    points = line_points(moment, moment.character.features[line.feature], places, lower=line.lower)
-    offset = look_up(line.offset, places)
-    if line.offset_by is not None:
-        code, left = line.offset_by
-        offset = offset * (1.0 - (1.0 - left) * min(max(-2.2 * moment.activation(code), 0.0), 1.0))
-    points[:, 1] += offset
-    return points
 
 
 def _gap(feature: Feature, upper: str, lower: str) -> float:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 from math import ceil
 
 import numpy as np
@@ -179,33 +180,43 @@ def look_up(knots: Knots, places: Floats) -> Floats:
     )
 
 
-def ribbon(line: Floats, width: Knots, *, closed: bool = False, share: float = 1.0) -> tuple[Floats, ...]:
-    """Contours of a brush stroke along a line (N, 2), as wide as ``width`` says from its start (0) to its end (1).
+def half_widths(line: Floats, width: Knots) -> Floats:
+    """(N,) half the width of a brush along a line (N, 2), from its start (0) to its end (1) by length."""
+    pieces = np.diff(line, axis=0)
+    way = np.concatenate([[0.0], np.cumsum(np.sqrt((pieces * pieces).sum(axis=1)))])
+    return 0.5 * np.maximum(look_up(width, way / (way[-1] or 1.0)), 0.0)
+
+
+def ribbon(line: Floats, half: Floats, *, closed: bool = False) -> tuple[Floats, ...]:
+    """Contours of a brush stroke along a line (N, 2).
 
     Args:
         line: what the brush follows.
-        width: in the units of the line.
+        half: (N,) half its width, in the units of the line.
         closed: the line ends where it starts, and the stroke is a ring.
-        share: of the width that is drawn.
     """
     before, after = (np.roll(line, 1, axis=0), np.roll(line, -1, axis=0)) if closed else _neighbours(line)
     along = after - before
-    length = np.sqrt((along * along).sum(axis=1))
+    length = np.sqrt(along[:, 0] * along[:, 0] + along[:, 1] * along[:, 1])
     along /= np.where(length > 0.0, length, 1.0)[:, None]
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    pieces = np.sqrt((np.diff(line, axis=0) ** 2).sum(axis=1))
-    way = np.concatenate([[0.0], np.cumsum(pieces)])
-    half = np.maximum(look_up(width, way / (way[-1] or 1.0)), 0.0) * (0.5 * share)
-    left, right = line + across * half[:, None], line - across * half[:, None]
+    aside = np.empty_like(along)
+    aside[:, 0], aside[:, 1] = -along[:, 1] * half, along[:, 0] * half
+    left, right = line + aside, line - aside
     if closed:
         return left, right[::-1]
-    # Half circles about the ends, from one side to the other.
-    sine, cosine = exact.sin_cos(np.arange(1.0, CAP_STEPS) * (np.pi / CAP_STEPS))
+    sine, cosine = _half_turn()
     caps = [
-        line[end] + half[end] * (across[end] * cosine[:, None] + along[end] * sine[:, None]) * sense
+        line[end] + sense * (aside[end] * cosine + half[end] * along[end] * sine)
         for end, sense in ((-1, 1.0), (0, -1.0))
     ]
     return (np.concatenate([left, caps[0], right[::-1], caps[1]]),)
+
+
+@cache
+def _half_turn() -> tuple[Floats, Floats]:
+    """(CAP_STEPS - 1, 1) sine and cosine of the angles of a round end."""
+    sine, cosine = exact.sin_cos(np.arange(1.0, CAP_STEPS) * (np.pi / CAP_STEPS))
+    return sine[:, None], cosine[:, None]
 
 
 def _neighbours(line: Floats) -> tuple[Floats, Floats]:
