@@ -180,7 +180,7 @@ def _palettes(character: Character) -> list[Preset]:
 def _family_expressions() -> tuple[tuple[str, str, str, Mapping[str, float]], ...]:
     """Name, meaning, source and activations by code of the expressions that every drawn face has."""
     text = resources.files(__package__).joinpath("data", "expressions.json").read_text(encoding="utf-8")
-    return tuple((each["name"], each["doc"], each["source"], each["values"]) for each in json.loads(text))
+    return tuple((each["name"], each["doc"], each["source"], each["activations"]) for each in json.loads(text))
 
 
 def _expressions(character: Character) -> list[Preset]:
