@@ -9,7 +9,7 @@ import numpy as np
 
 from .records import Floats
 
-JOINT_SHARE = 0.3
+JOINT_SHARE = 0.05
 """A vertex that is nearer to its second line than this share of its length follows both: outlines do not tear there."""
 
 NO_LENGTH = 1e-9

@@ -29,7 +29,9 @@ class Shape:
         self.polygon = polygon
         self._rest, self._character = rest, rest.character
         self._drivers = (*polygon.drivers, *self._character.parts.get(polygon.part, ()))
-        self._steps = piece_steps(_states(polygon, self._drivers)) if polygon.path or polygon.low else ()
+        bend = self._character.mode != "strict"  # the paper moves the vertices of a file and no others
+        states = _states(polygon, self._drivers) if polygon.path or polygon.low else []
+        self._steps = piece_steps(states, bend=bend) if states else ()
         self._span = tuple(self._stretch(line) for line in polygon.span or ())
         self._stroke = None if polygon.stroke is None else self._stretch(polygon.stroke)
         self._changes = tuple(self._find_changes())
