@@ -8,7 +8,19 @@ from mien.vocab.tables import shipped_rows, shipped_tables
 from support import FACE_NAMES, face
 
 # What a value is counted in. A share goes from 0 to 1 or from -1 to 1.
-UNITS = {"deg", "m", "s", "share", "factor", "Parke unit", "linear light", "iris radius", "mm", "eyeball radius"}
+UNITS = {
+    "deg",
+    "m",
+    "s",
+    "share",
+    "factor",
+    "Parke unit",
+    "linear light",
+    "iris radius",
+    "mm",
+    "eyeball radius",
+    "drawing unit",
+}
 
 every_face = pytest.mark.parametrize("name", FACE_NAMES)
 

@@ -141,8 +141,8 @@ def activation(code: str, limits: Limits, share: float) -> float:
 
 
 def resting_share(code: str, limits: Limits) -> float:
-    """P_ctrl at which a motor moves nothing: where rest lies between its limits; 0 degrees."""
-    if motors()[code].unit == "deg" or limits.high == limits.low:
+    """P_ctrl at which a motor moves nothing: where rest lies between its limits; 0 of degrees and of what is signed."""
+    if motors()[code].unit != "share" or limits.high == limits.low:
         return 0.0
     return -limits.low / (limits.high - limits.low)
 

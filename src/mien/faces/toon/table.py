@@ -20,11 +20,11 @@ PROPORTIONS: Mapping[str, tuple[float, str, str]] = {
     "face.width": (1.0, "factor", "Width of the head."),
     "face.height": (1.0, "factor", "Height of the head."),
     "eyes.size": (1.0, "factor", "Size of the eyes with their pupils."),
-    "eyes.spacing": (0.0, "unit", "How much further the eyes lie from the middle."),
-    "eyes.up": (0.0, "unit", "How much higher the eyes lie."),
-    "brows.up": (0.0, "unit", "How much higher the eyebrows lie."),
+    "eyes.spacing": (0.0, "drawing unit", "How much further the eyes lie from the middle."),
+    "eyes.up": (0.0, "drawing unit", "How much higher the eyes lie."),
+    "brows.up": (0.0, "drawing unit", "How much higher the eyebrows lie."),
     "mouth.width": (1.0, "factor", "Width of the mouth."),
-    "mouth.up": (0.0, "unit", "How much higher the mouth lies."),
+    "mouth.up": (0.0, "drawing unit", "How much higher the mouth lies."),
     "nose.size": (1.0, "factor", "Size of the nose."),
     "ears.size": (1.0, "factor", "Size of the ears."),
 }
@@ -78,7 +78,14 @@ def _proportion_rows(character: Character) -> Iterator[Parameter]:
 
 def _color_rows(character: Character) -> Iterator[Parameter]:
     for name, code in character.palette.items():
-        yield from color(f"palette.{name}", linear_color(code), group="palette", doc=f"Colour {name!r}", source=OWN)
+        yield from color(
+            f"palette.{name}",
+            linear_color(code),
+            group="palette",
+            unit="linear light",
+            doc=f"Colour {name!r}",
+            source=OWN,
+        )
 
 
 def _viewer_rows() -> Iterator[Parameter]:
