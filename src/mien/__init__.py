@@ -42,10 +42,11 @@ if TYPE_CHECKING:
         Scene,
         Sound,
         UnknownNameError,
+        caricature,
     )
     from .formats.picture import Picture
     from .formats.sheet import contact_sheet
-    from .perform import Performance, Style
+    from .perform import Performance, Style, exaggerate
     from .speech import Speech
     from .timeline import Layer, Timeline, Track
 
@@ -73,9 +74,11 @@ __all__ = [
     "Track",
     "UnknownNameError",
     "__version__",
+    "caricature",
     "contact_sheet",
     "draw",
     "draw_paths",
+    "exaggerate",
     "face_names",
     "hear",
     "load_face",
@@ -111,7 +114,7 @@ _HOMES = {
     ),
     "mien.formats.picture": ("Picture",),
     "mien.formats.sheet": ("contact_sheet",),
-    "mien.perform": ("Performance", "Style"),
+    "mien.perform": ("Performance", "Style", "exaggerate"),
     "mien.speech": ("Speech",),
     "mien.timeline": ("Layer", "Timeline", "Track"),
 }

@@ -17,6 +17,7 @@ from .core import (
     RangeError,
     Scene,
     UnknownNameError,
+    exaggeration,
     fill_rows,
     mix_people,
     random_person,
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from .speech.speaking import Report
 
 DEFAULT_FACE = "head"
-
 
 KERNELS = (
     "mien.faces.head.carrying",
@@ -113,6 +113,7 @@ def make_pose(
     units: Mapping[str, float] | None = None,
     mix: Mapping[str, float] | None = None,
     seed: int | None = None,
+    caricature: float = 1.0,
 ) -> Pose:
     """The pose of a face with presets, a later one over an earlier one, action units on top, and values over all.
 
@@ -123,14 +124,16 @@ def make_pose(
         units: action units of FACS, 0..1 by name.
         mix: addresses of other people, with the share 0..1 of each in this one.
         seed: of a person drawn by chance, in place of the face's own rest.
+        caricature: times the distance of the person from the mean of people, before anything else acts, 0..3.
 
     Raises:
         UnknownNameError: a preset, a unit, a face or a parameter is unknown.
-        RangeError: a value is not finite or out of its range.
+        RangeError: a value is not finite or out of its range, or there is no such amount of caricature.
         MienError: another person cannot be mixed in.
     """
     pose = Pose.neutral(face.parameters) if seed is None else random_person(face, seed)
     pose = mix_people(pose, face, [(load_face(address), share) for address, share in (mix or {}).items()])
+    pose = exaggeration.caricature(pose, caricature)
     for name, amount in _amounts(presets).items():
         if name not in face.presets:
             raise UnknownNameError(f"preset of {face.name!r}", name, face.presets)

@@ -44,6 +44,12 @@ Mix = Annotated[
 Random = Annotated[
     int | None, typer.Option("--random", metavar="SEED", help="A person drawn by chance; the same for the same seed.")
 ]
+Exaggerate = Annotated[
+    float, typer.Option("--exaggerate", metavar="N", help="Expression times N, 0 to 3: louder, or softer.")
+]
+Caricature = Annotated[
+    float, typer.Option("--caricature", metavar="N", help="The person N times, 0 to 3, as far from the average.")
+]
 
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]
 Film = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]

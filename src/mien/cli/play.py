@@ -25,6 +25,8 @@ def play(
     units: options.Units = None,
     mix: options.Mix = None,
     person: options.Random = None,
+    caricature: options.Caricature = 1.0,
+    exaggerate: options.Exaggerate = 1.0,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -47,6 +49,7 @@ def play(
     \b
     mien play nod.spec -o nod.mp4
     mien play nod.spec --commands --plot nod.svg
+    mien play hello.json --exaggerate 1.8 -o loud.mp4
     mien play hello.json --face head:ada --view side -o hello.mp4
     """
     from dataclasses import replace
@@ -57,6 +60,7 @@ def play(
     from mien.formats.atomic import check_file
     from mien.formats.performances import BURN, usual_scene
     from mien.formats.table import find_format
+    from mien.perform import exaggerate as exaggerate_performance
     from mien.timeline import with_settings
 
     from . import settings
@@ -91,8 +95,9 @@ def play(
         diffuse=diffuse,
         cosine_power=cosine_power,
     )
-    pose = settings.make_pose(performance.face, values, preset, units, mix, person)
+    pose = settings.make_pose(performance.face, values, preset, units, mix, person, caricature)
     performance = replace(performance, scene=scene, timeline=with_settings(performance.timeline, pose))
+    performance = exaggerate_performance(performance, exaggerate)
     rate = wanted or performance.timeline.fps or DEFAULT_FPS
     if out is not None:
         kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)

@@ -26,6 +26,8 @@ def render(
     units: options.Units = None,
     mix: options.Mix = None,
     person: options.Random = None,
+    caricature: options.Caricature = 1.0,
+    exaggerate: options.Exaggerate = 1.0,
     sheet: options.Sheet = None,
     size: options.Size = None,
     view: options.View = None,
@@ -49,6 +51,8 @@ def render(
     mien render head --set jaw.rotation=8 -o open.png
     mien render head --preset smile=0.6 --view side --size 512 -o smile.jpg
     mien render head --au 12=0.8,6=0.5 -o happy.png
+    mien render head --preset sad --exaggerate 2 -o very_sad.png
+    mien render head:ada --caricature 1.8 -o more_ada.png
     mien render head --random 7 --mix head:ada=0.3 -o someone.png
     mien render head:ada -o ada.glb
     mien render head --background transparent -o cutout.svg
@@ -57,6 +61,7 @@ def render(
     mien render head --sheet facs --size 192 -o action_units.png
     """
     from mien import api
+    from mien.core import exaggerate as exaggerate_pose
     from mien.formats.atomic import check_file
 
     from . import settings
@@ -80,7 +85,7 @@ def render(
     )
     settings.check_threads(threads)
     subject = api.load_face(face)
-    pose = settings.make_pose(subject, values, preset, units, mix, person)
+    pose = exaggerate_pose(settings.make_pose(subject, values, preset, units, mix, person, caricature), exaggerate)
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
         stages.say(f"{out}: an SVG has one shade a polygon; only pixels can be smooth")

@@ -63,6 +63,8 @@ def say(
     units: options.Units = None,
     mix: options.Mix = None,
     person: options.Random = None,
+    caricature: options.Caricature = 1.0,
+    exaggerate: options.Exaggerate = 1.0,
     size: options.Size = None,
     fps: options.Fps = None,
     view: options.View = None,
@@ -89,6 +91,7 @@ def say(
     mien say "Good morning." --style mumbling -o morning.mp4
     mien say @news.txt --fps 29.97 --subtitles burn -o news.webm
     mien say "Schöne Grüße aus München." --language de -o gruesse.mp4
+    mien say "What a surprise!" --emotion surprised --exaggerate 1.6 -o surprise.mp4
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
     mien say "Hello there." -o hello.glb
     mien say --audio line.wav --text "Call me at noon." -o line.mp4
@@ -99,9 +102,11 @@ def say(
     echo Hello | mien say - --emotion smile=0.6 -o hello.json
     """
     from mien import api
+    from mien.core.exaggeration import check_amount
     from mien.formats import DEFAULT_FPS, check_performance
     from mien.formats.performances import HEARD, usual_scene
     from mien.perform import check_emotion, check_marks, listen, load_style, parse_marks
+    from mien.perform import exaggerate as exaggerate_performance
 
     from . import settings
     from .writing import write
@@ -122,6 +127,7 @@ def say(
         cosine_power=cosine_power,
     )
     settings.check_threads(threads)
+    check_amount(exaggerate)
     manner = load_style(style)
     mood, amount = settings.parse_emotion(emotion)
     stages = Stages(quiet)
@@ -143,7 +149,8 @@ def say(
             begun,
             seed,
             manner,
-            lambda face: settings.make_pose(face, values, preset, units, mix, person),
+            lambda face: settings.make_pose(face, values, preset, units, mix, person, caricature),
+            exaggerate,
         )
         say_script(script, job, stages)
         return
@@ -154,7 +161,7 @@ def say(
         from mien.formats.glb_targets import check_face
 
         check_face(subject)
-    pose = settings.make_pose(subject, values, preset, units, mix, person)
+    pose = settings.make_pose(subject, values, preset, units, mix, person, caricature)
     voice = check_source(text, voice, audio, transcript, language)
     written = text if audio is None else transcript
     written = None if written is None else settings.read_text(written)
@@ -177,6 +184,7 @@ def say(
                 pose=pose,
                 scene=scene,
             )
+            performance = exaggerate_performance(performance, exaggerate)
     write(performance, out, kind, stages, fps=rate, threads=threads, subtitles=subtitles, variable=variable)
 
 

@@ -32,6 +32,7 @@ class Job:
         voice: likewise.
         emotion: that all begin with, as in a script; empty for none.
         pose: of a face while nothing moves it.
+        exaggerate: times the distance from rest of all that expresses something.
     """
 
     out: Path
@@ -46,6 +47,7 @@ class Job:
     seed: int
     style: Style
     pose: Callable[[Face], Pose]
+    exaggerate: float
 
 
 def say_script(path: Path, job: Job, stages: Stages) -> None:
@@ -54,7 +56,7 @@ def say_script(path: Path, job: Job, stages: Stages) -> None:
     Raises:
         MienError: something in the script or the options does not suit; nothing is written then.
     """
-    from mien.perform import read_script
+    from mien.perform import exaggerate, read_script
     from mien.perform.dialogue import converse
     from mien.timeline import with_settings
 
@@ -66,7 +68,9 @@ def say_script(path: Path, job: Job, stages: Stages) -> None:
     with stages.stage("moving the faces"):
         dialogue = converse(turns, faces, seed=job.seed, style=job.style)
         parts = {
-            name: replace(part, timeline=with_settings(part.timeline, poses[name]), scene=job.scene)
+            name: exaggerate(
+                replace(part, timeline=with_settings(part.timeline, poses[name]), scene=job.scene), job.exaggerate
+            )
             for name, part in dialogue.parts.items()
         }
     dialogue = replace(dialogue, parts=parts, heard=replace(dialogue.heard, scene=job.scene))

@@ -75,8 +75,10 @@ def make_pose(
     units: Sequence[str] | None,
     mix: Sequence[str] | None = None,
     seed: int | None = None,
+    caricature: float = 1.0,
 ) -> Pose:
-    """The pose of a face that ``--random``, ``--mix``, ``--preset``, ``--au`` and ``--set`` ask for, in this order.
+    """The pose of a face that ``--random``, ``--mix``, ``--caricature``, ``--preset``, ``--au`` and ``--set`` ask for,
+    in this order.
 
     Raises:
         MienError: one of them cannot be understood, is unknown or out of range.
@@ -86,7 +88,13 @@ def make_pose(
 
     given = {name: amount for text in units or () for name, amount in parse_units(text, f"--au {text}").items()}
     return api.make_pose(
-        face, parse_values(values), presets=parse_presets(presets), units=given, mix=parse_mix(mix), seed=seed
+        face,
+        parse_values(values),
+        presets=parse_presets(presets),
+        units=given,
+        mix=parse_mix(mix),
+        seed=seed,
+        caricature=caricature,
     )
 
 

@@ -3,6 +3,7 @@
 from .cues import SILENCE, Cue
 from .drawing import Drawing, Path, Region
 from .errors import LoadError, MienError, RangeError, UnknownNameError
+from .exaggeration import caricature, exaggerate
 from .face import Face, Preset
 from .mesh import Material, Mesh, Part, Topology, build_topology
 from .parameters import Parameter, ParameterTable, Pose, both_sides, color
@@ -42,7 +43,9 @@ __all__ = [
     "UnknownNameError",
     "both_sides",
     "build_topology",
+    "caricature",
     "color",
+    "exaggerate",
     "fill_rows",
     "mix_people",
     "random_person",

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,18 @@ Values = NDArray[np.float64]
 
 SIDES = (".left", ".right")
 
+ROLES: Mapping[str, str] = MappingProxyType(
+    {
+        "motion": "expresses something, or speaks",
+        "gaze": "aims the eyes at something",
+        "contact": "brings lips or teeth together",
+        "shape": "who it is",
+        "color": "a colour",
+        "scene": "filled in by the scene",
+    }
+)
+"""What a row can be for."""
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -26,7 +39,8 @@ class Parameter:
     without either sets both. ``odd`` marks a quantity that changes its sign in the mirror (a turn to the left).
     ``spread`` is the standard deviation among people, 0 for what moves or what they do not differ in; ``usual`` is
     their mean, None where that is the default. ``reach_mm`` tells how far the point that moves most goes at ``low``
-    and at ``high``, None where that was not measured.
+    and at ``high``, None where that was not measured. ``role`` is one of ``ROLES``.
+    ``closed`` is the value, an end of the range, at which it shuts an eye or the lips; None where it shuts nothing.
     """
 
     name: str
@@ -41,10 +55,16 @@ class Parameter:
     spread: float = 0.0
     usual: float | None = None
     reach_mm: tuple[float, float] | None = None
+    role: str = "motion"
+    closed: float | None = None
 
     def __post_init__(self) -> None:
         if not self.low <= self.default <= self.high:
             raise RangeError(f"{self.name}: default {self.default} is not in {self.low}..{self.high}")
+        if self.role not in ROLES:
+            raise UnknownNameError(f"role of {self.name!r}:", self.role, ROLES)
+        if self.closed not in (None, self.low, self.high):
+            raise RangeError(f"{self.name}: closed at {self.closed}, which is no end of {self.low}..{self.high}")
 
     @property
     def mirror(self) -> str:
@@ -84,7 +104,7 @@ def color(name: str, rgb: tuple[float, float, float], **more: str) -> tuple[Para
     """The three rows of a colour, linear RGB 0..1."""
     doc = more.pop("doc", "")
     red, green, blue = (
-        Parameter(f"{name}.{channel}", 0.0, 1.0, value, doc=f"{doc} ({channel}, linear light)", **more)  # type: ignore[arg-type]
+        Parameter(f"{name}.{channel}", 0.0, 1.0, value, doc=f"{doc} ({channel}, linear light)", role="color", **more)  # type: ignore[arg-type]
         for channel, value in zip(("red", "green", "blue"), rgb, strict=True)
     )
     return red, green, blue

@@ -1,6 +1,7 @@
 """Speech and the life around it as one timeline: what a face does while it says something."""
 
 from .corrected import correct, cues_for_speech
+from .exaggeration import exaggerate
 from .expressions import check_emotion, check_marks
 from .marks import MarkedText
 from .marks_reader import parse_marks
@@ -19,6 +20,7 @@ __all__ = [
     "check_marks",
     "correct",
     "cues_for_speech",
+    "exaggerate",
     "listen",
     "load_style",
     "named_styles",

@@ -28,9 +28,6 @@ SPOKEN_SHARE = 0.45
 A laugh keeps its smile, its cheeks and its eyes, but not all of its open jaw; otherwise words drown in it.
 """
 
-SCENE_GROUPS = ("target", "viewer", "light")
-"""Rows that the scene fills in; an emotion that moved one of them would make the eyes leave the viewer with a jerk."""
-
 NEUTRAL = "neutral"
 """The expression that every face has: none."""
 
@@ -131,7 +128,10 @@ def _expressions(face: Face) -> list[str]:
 
 
 def _offsets(face: Face, act: Expression | Units) -> dict[str, float]:
-    """How far an expression lies from the defaults, by row, without the rows of the scene."""
+    """How far an expression lies from the defaults, by row.
+
+    Rows of the scene are left out: one that moved would make the eyes leave the viewer with a jerk.
+    """
     table = face.parameters
     if isinstance(act, Units):
         amount = 1.0
@@ -143,5 +143,5 @@ def _offsets(face: Face, act: Expression | Units) -> dict[str, float]:
         row: amount * (value - table[row].default)
         for name, value in values.items()
         for row in table.resolve(name)
-        if value != table[row].default and row.split(".")[0] not in SCENE_GROUPS
+        if value != table[row].default and table[row].role != "scene"
     }

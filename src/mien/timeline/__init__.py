@@ -3,6 +3,7 @@
 from .change import CHANGES
 from .commands import command_list, format_commands
 from .csv_form import format_csv, parse_csv
+from .exaggeration import exaggerate_timeline
 from .json_form import StoredTimeline, from_json, json_text, to_json
 from .layers import BLENDS, STANDARD_LAYERS, Layer
 from .rates import Rate, exact_rate
@@ -26,6 +27,7 @@ __all__ = [
     "Track",
     "command_list",
     "exact_rate",
+    "exaggerate_timeline",
     "format_commands",
     "format_csv",
     "format_specifications",

@@ -42,7 +42,7 @@ PLACES = (
 def face_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/parameters.csv``: name, sides, low, high, default, unit, group, mirror, morph, doc, source.
 
-    ``low_mm`` and ``high_mm`` are the largest displacements at both ends.
+    ``low_mm`` and ``high_mm`` are the largest displacements at both ends, ``role`` and ``closed`` as in ``Parameter``.
     """
     return shipped_rows("parameters")
 
@@ -50,9 +50,9 @@ def face_rows() -> tuple[dict[str, str], ...]:
 def conformation_rows() -> tuple[dict[str, str], ...]:
     """Rows of ``data/conformation.csv``, in the order in which they act.
 
-    They have what the others have but ``morph``, and the mechanism: kind (blend, field, scale, move, lids, turn, brow
-    or head), axis, region and origin; and the spread among people, by least squares on the fifty identities of
-    ICT-FaceKit Light (chosen for brows and teeth, which these do not have).
+    They have what the others have but ``role``, ``closed`` and ``morph``, and the mechanism: kind (blend, field,
+    scale, move, lids, turn, brow or head), axis, region and origin; and the spread among people, by least squares on
+    the fifty identities of ICT-FaceKit Light (chosen for brows and teeth, which these do not have).
     """
     return shipped_rows("conformation")
 
@@ -64,14 +64,16 @@ def head_table(own: tuple[tuple[str, float], ...] = ()) -> ParameterTable:
     Raises:
         UnknownNameError, RangeError: a value of ``own`` does not fit the table.
     """
-    table = ParameterTable((*_face(face_rows()), *_face(conformation_rows()), *_places(), *_colors()))
+    table = ParameterTable(
+        (*_face(face_rows(), "motion"), *_face(conformation_rows(), "shape"), *_places(), *_colors())
+    )
     if not own:
         return table
     values = Pose.neutral(table).replace(dict(own))
     return ParameterTable(tuple(replace(row, default=values[row.name], usual=row.default) for row in table))
 
 
-def _face(cells_of: tuple[dict[str, str], ...]) -> list[Parameter]:
+def _face(cells_of: tuple[dict[str, str], ...], role: str) -> list[Parameter]:
     rows: list[Parameter] = []
     for row in cells_of:
         low, high, default, low_mm, high_mm = (
@@ -81,6 +83,8 @@ def _face(cells_of: tuple[dict[str, str], ...]) -> list[Parameter]:
             *(row["name"], low, high, default, row["unit"], row["group"], row["mirror"] == "odd"),
             *(row["doc"], row["source"], float(row.get("spread") or 0.0)),
             reach_mm=(low_mm, high_mm),
+            role=row.get("role") or role,
+            closed=float(row["closed"]) if row.get("closed") else None,
         )
         rows += both_sides(parameter) if row["sides"] else (parameter,)
     return rows
@@ -92,7 +96,7 @@ def _places() -> list[Parameter]:
         for axis, value, way in zip("xyz", place, ("to the own left", "up", "forward"), strict=True):
             doc = f"Place of {what}: {way}. A scene fills it in where the pose leaves it at rest."
             odd = axis == "x"
-            rows.append(Parameter(f"{group}.{axis}", -100, 100, value, "m", group, odd, doc, SCENE))
+            rows.append(Parameter(f"{group}.{axis}", -100, 100, value, "m", group, odd, doc, SCENE, role="scene"))
     return rows
 
 
