@@ -101,6 +101,8 @@ def _fourth(share: Values) -> Values:
 def _scale(pose: Pose, amount: float, role: str, rest: Values) -> Pose:
     """The pose with the rows of a role stretched."""
     check_amount(amount)
+    if amount == 1.0:
+        return pose
     table = pose.table
     closed = np.array([math.nan if row.closed is None else row.closed for row in table])
     scaled = stretch(pose.values, amount, rest=rest, low=table.lows, high=table.highs, closed=closed)

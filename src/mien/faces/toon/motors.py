@@ -30,6 +30,8 @@ class Motor:
         direction: (x, y), y down, into which a positive offset moves the point.
         paper: it is one of the 21.
         odd: it changes its sign in the mirror.
+        role: of its parameter, as in ``mien.core.Parameter``; ``closed`` likewise.
+        closed: where it shuts an eye or the mouth.
         doc: what it does.
     """
 
@@ -43,6 +45,8 @@ class Motor:
     direction: tuple[float, float]
     paper: bool
     odd: bool
+    role: str
+    closed: float | None
     doc: str
 
     @property
@@ -77,5 +81,7 @@ def _motor(row: Mapping[str, str]) -> Motor:
         (float(row["dx"]), float(row["dy"])),
         row["paper"] == "1",
         row["odd"] == "1",
+        row["role"],
+        float(row["closed"]) if row["closed"] else None,
         row["doc"],
     )

@@ -66,6 +66,8 @@ def _motor_row(motor: Motor, limits: Limits) -> Parameter:
         motor.odd,
         f"{motor.doc[:-1]} ({motor.code}).",
         source,
+        role=motor.role,
+        closed=motor.closed,
     )
 
 
@@ -73,7 +75,7 @@ def _proportion_rows(character: Character) -> Iterator[Parameter]:
     for name, (low, high) in character.proportions.items():
         default, unit, doc = PROPORTIONS[name]
         spread = SPREAD_SHARE * min(high - default, default - low)
-        yield Parameter(name, low, high, default, unit, "proportion", doc=doc, source=OWN, spread=spread)
+        yield Parameter(name, low, high, default, unit, "proportion", doc=doc, source=OWN, spread=spread, role="shape")
 
 
 def _color_rows(character: Character) -> Iterator[Parameter]:
@@ -101,6 +103,7 @@ def _viewer_rows() -> Iterator[Parameter]:
             doc=doc,
             source="Parke 1974, section 3.5",
             odd=axis == "x",
+            role="scene",
         )
 
 
