@@ -34,6 +34,9 @@ ROUND = Profile(2.0, 2.0)
 OPENS_AT = 0.45
 """Share of its opening at which a mouth has its open profile: our choice."""
 
+ROUND_AT = 1.4
+"""How much sooner than its corners are all the way in an open mouth is an ellipse: our choice."""
+
 SHUTS_AT = 0.7
 """Share of its resting opening below which an eye begins to take its shut profile: our choice."""
 
@@ -80,6 +83,16 @@ class Moment:
     @cached_property
     def points(self) -> Mapping[str, Point]:
         """Where every control point is."""
+        places = dict(self._moved)
+        middle = 0.5 * (places["MT"][1] + places["MB"][1])
+        for corner in ("MR", "ML") if self.roundness else ():
+            x, y = places[corner]
+            places[corner] = (x, y + self.roundness * max(middle - y, 0.0))
+        return places
+
+    @cached_property
+    def _moved(self) -> Mapping[str, Point]:
+        """Where the motors put every control point."""
         places = {name: xy for feature in self.character.features.values() for name, xy in feature.points.items()}
         for code, value in self.activations.items():
             motor = motors()[code]
@@ -109,13 +122,20 @@ class Moment:
     def mouth_opening(self) -> float:
         """How far the mouth is open, 0..1 of what its lower lip can do."""
         reach = self.character.motors["MB"].high
-        gap = self.points["MB"][1] - self.points["MT"][1] - _gap(self.character.features["M"], "MT", "MB")
+        gap = self._moved["MB"][1] - self._moved["MT"][1] - _gap(self.character.features["M"], "MT", "MB")
         return min(max(gap / reach, 0.0), 1.0) if reach else 0.0
 
     @cached_property
     def pursing(self) -> float:
         """How far the corners of the mouth are drawn in, 0..1."""
         return min(max(-0.5 * (self.activation("MLH") + self.activation("MRH")), 0.0), 1.0)
+
+    @cached_property
+    def roundness(self) -> float:
+        """How far the mouth is an ellipse, 0..1, its corners half-way between its lips: as it purses and opens."""
+        if self.character.features[MOUTH].profile_open is None:
+            return 0.0
+        return min(1.0, self.mouth_opening / OPENS_AT) * min(1.0, ROUND_AT * self.pursing)
 
     def eye_opening(self, eye: str) -> float:
         """Opening of an eye as a share of that at rest."""
@@ -201,9 +221,8 @@ class Track:
         """(N,) weight of the middle point."""
         weights, opened, shut = self._rest, self._open, self._shut
         if opened is not None:
-            share = min(1.0, moment.mouth_opening / OPENS_AT)
-            weights = weights + share * (opened - weights)
-            weights = weights + share * min(1.0, 1.4 * moment.pursing) * (self._round - weights)
+            weights = weights + min(1.0, moment.mouth_opening / OPENS_AT) * (opened - weights)
+            weights = weights + moment.roundness * (self._round - weights)
         if shut is not None:
             weights = weights + max(0.0, 1.0 - moment.eye_opening(self.feature.name) / SHUTS_AT) * (shut - weights)
         return weights
