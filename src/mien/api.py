@@ -119,7 +119,7 @@ def make_pose(
 
     Args:
         face: who.
-        values: of its parameters.
+        values: of its parameters; motor codes of ToonFace (``ELU``) move any face that has a table for them.
         presets: names, or names with how much of each, 0..1: so much of the way from what lies beneath.
         units: action units of FACS, 0..1 by name.
         mix: addresses of other people, with the share 0..1 of each in this one.
@@ -131,6 +131,8 @@ def make_pose(
         RangeError: a value is not finite or out of its range, or there is no such amount of caricature.
         MienError: another person cannot be mixed in.
     """
+    from .vocab import set_values
+
     pose = Pose.neutral(face.parameters) if seed is None else random_person(face, seed)
     pose = mix_people(pose, face, [(load_face(address), share) for address, share in (mix or {}).items()])
     pose = exaggeration.caricature(pose, caricature)
@@ -142,7 +144,7 @@ def make_pose(
         pose = pose.blend(pose.replace(face.presets[name].values), amount)
     if units:
         pose = pose_from("facs", units, face, pose)
-    return pose.replace(values or {})
+    return set_values(values or {}, face, pose)
 
 
 def _amounts(presets: Mapping[str, float] | Iterable[str]) -> Mapping[str, float]:

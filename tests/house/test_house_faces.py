@@ -2,7 +2,10 @@
 
 import pytest
 
+from mien.core import ParameterTable
 from mien.vocab import load_remap, load_rules, targets, vocabularies, vocabulary
+from mien.vocab.posing import MOTORS
+from mien.vocab.remap import HALVES, whole
 from mien.vocab.rules import KINDS
 from mien.vocab.tables import shipped_rows, shipped_tables
 from support import FACE_NAMES, face
@@ -50,17 +53,18 @@ def test_presets_are_described(name):
         assert preset.doc, key
 
 
-def family(name):
-    return next((face(known) for known in FACE_NAMES if face(known).family == name), None)
+def tables(target):
+    """The tables that a remap ends in: of a vocabulary, or of each face of a family."""
+    if target in vocabularies():
+        return [vocabulary(target)]
+    found = {id(face(name).parameters): face(name).parameters for name in FACE_NAMES if face(name).family == target}
+    assert found, f"no installed face is of the family {target!r}"
+    return list(found.values())
 
 
 def played(target):
-    """The names that a table ends in: of a vocabulary, or of any face of a family."""
-    if target in vocabularies():
-        return vocabulary(target)
-    subject = family(target)
-    assert subject is not None, f"no installed face is of the family {target!r}"
-    return subject.parameters
+    """All names that a remap can end in: a face of a family need not have all of them, but one of them has each."""
+    return ParameterTable(tuple({row.name: row for table in tables(target) for row in table}.values()))
 
 
 REMAPS = [(name, target) for name in vocabularies() for target in targets(name)]
@@ -71,19 +75,43 @@ def test_both_sets_of_names_in_a_table_exist(name, target):
     remap = load_remap(name, target)
     remap.check(vocabulary(name), played(target))
     assert remap.from_names
-    assert all(remap.sources.values())
+    assert all(link.source for link in remap.links)
 
 
 @pytest.mark.parametrize(("name", "target"), [remap for remap in REMAPS if remap[0] != "channels"])
 def test_no_name_goes_past_the_end_of_a_range(name, target):
-    table, remap = played(target), load_remap(name, target)
-    for each in remap.from_names:
-        for moved, pushes in remap.pushes({each: 1.0}).items():
-            row = table[moved]
-            assert row.low <= row.default + pushes[0][0] <= row.high, f"{name}.{target}.csv: {each}, {moved}"
-        for moved, factor in remap.scale({each: 1.0}).items():
-            assert 0.0 <= factor <= 1.0, f"{name}.{target}.csv: {each}, {moved}"
-            assert table[moved].low <= 0.0, f"{name}.{target}.csv: {moved} does not go down to 0"
+    for table in tables(target):
+        remap = load_remap(name, target).on(table)
+        for each in remap.from_names:
+            for moved, pushes in [*remap.pushes({each: 1.0}).items(), *remap.moves({each: 1.0}).items()]:
+                row = table[moved]
+                assert row.low <= row.default + pushes[0][0] <= row.high, f"{name}.{target}.csv: {each}, {moved}"
+            for moved, factor in remap.scale({each: 1.0}).items():
+                assert 0.0 <= factor <= 1.0, f"{name}.{target}.csv: {each}, {moved}"
+                assert table[moved].low <= 0.0, f"{name}.{target}.csv: {moved} does not go down to 0"
+
+
+@pytest.mark.parametrize(("name", "target"), REMAPS)
+def test_shares_of_a_range_are_counted_upwards_from_rest(name, target):
+    # A turn to either side would go as far to the one as to the other.
+    table = vocabulary(name)
+    for link in load_remap(name, target).links:
+        assert link.blend != "share" or table[whole(link.name)].low == 0.0, link
+
+
+@pytest.mark.parametrize(("name", "target"), REMAPS)
+def test_no_parameter_has_two_names_that_say_where_it_is(name, target):
+    placed = [
+        link.parameter for link in load_remap(name, target).links if link.blend == "set" and link.name[-1] not in HALVES
+    ]
+    assert len(placed) == len(set(placed))
+
+
+def test_no_face_calls_a_parameter_what_a_vocabulary_calls_something_else():
+    # Motor codes are looked for where a face has no parameter of that name.
+    for name in FACE_NAMES:
+        own = {*face(name).parameters.names, *face(name).parameters.symmetric}
+        assert not own & {*vocabulary(MOTORS).names, *vocabulary(MOTORS).aliases}
 
 
 @pytest.mark.parametrize("name", vocabularies())

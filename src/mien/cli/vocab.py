@@ -26,14 +26,16 @@ def vocab(
 ) -> None:
     """List the vocabularies, the names of one, or what is lost on the way.
 
-    Loss on a face: a name is exact, near (approximated) or missing; how far it moves the point that it moves most; and
-    which other name does most nearly the same, 0 degrees apart where both do the same. Loss to another vocabulary: the
-    nearest combination of its names, and how many degrees the two displacements are apart.
+    Loss on a face: a name is exact, near (approximated), missing, or something stands in for it; how far it moves the
+    point that it moves most, in mm or the units of a drawing; and which other name does most nearly the same, 0 degrees
+    apart where both do the same. Loss to another vocabulary: the nearest combination of its names, and how many degrees
+    the two displacements are apart.
 
     \b
     mien vocab
     mien vocab facs
     mien vocab --loss arkit head
+    mien vocab --loss facs toon:olav
     mien vocab --loss facs arkit --json
     """
     from mien.core import MienError
@@ -101,30 +103,42 @@ def _show_names(name: str, as_json: bool) -> None:
 
 def _show_loss(name: str, to: str, as_json: bool) -> None:
     from mien import api
-    from mien.vocab import vocabularies
+    from mien.core import Drawing
+    from mien.vocab import vocabularies, vocabulary
     from mien.vocab.loss import loss_on, loss_to
 
-    from .listing import print_json, print_table
+    from .listing import print_json, print_table, show
 
     over = to in vocabularies()
-    losses = loss_to(name, to, api.load_face(COMPARED_WITH)) if over else loss_on(name, api.load_face(to))
+    face = api.load_face(COMPARED_WITH if over else to)
+    losses = loss_to(name, to, face) if over else loss_on(name, face)
+    unit = "px" if isinstance(face.shape(face.neutral), Drawing) else "mm"
     if as_json:
-        print_json({"from": name, "to": to, "names": [_described(loss) for loss in losses]})
+        print_json({"from": name, "to": to, "names": [_described(loss, unit) for loss in losses]})
         return
     print_table(
-        ("name", "fit", "mm", "degrees", "nearest in " + to if over else "nearest other name"),
-        [(loss.name, loss.fit, f"{loss.longest_mm:.1f}", *_compared(loss, over)) for loss in losses],
+        ("name", "fit", unit, "degrees", "nearest in " + to if over else "nearest other name"),
+        [(loss.name, loss.fit, f"{loss.longest:.1f}", *_compared(loss, over)) for loss in losses],
         numbers=(2, 3),
     )
+    lost = [loss for loss in losses if loss.fit in ("stand-in", "missing")]
+    if lost and not over:
+        show(["", f"What {to} cannot show of {name}, and what stands in for it:"])
+        table = vocabulary(name)
+        print_table(
+            ("name", "cannot be shown", "instead"),
+            [(loss.name, table[loss.name].doc, _stand_ins(loss) or "nothing") for loss in lost],
+        )
 
 
-def _described(loss: Loss) -> dict[str, object]:
+def _described(loss: Loss, unit: str) -> dict[str, object]:
     return {
         "name": loss.name,
         "fit": loss.fit,
-        "longest_mm": round(loss.longest_mm, 2),
+        f"longest_{unit}": round(loss.longest, 2),
         "nearest": {name: round(share, 3) for name, share in loss.nearest.items()},
         "angle_deg": round(loss.angle_deg, 1),
+        "stand_ins": {name: round(amount, 3) for name, amount in loss.stand_ins.items()},
     }
 
 
@@ -134,3 +148,7 @@ def _compared(loss: Loss, shares: bool) -> Sequence[str]:
         return "", ""
     names = (f"{name} {share:.2f}" if shares else name for name, share in loss.nearest.items())
     return f"{loss.angle_deg:.1f}", " + ".join(names)
+
+
+def _stand_ins(loss: Loss) -> str:
+    return ", ".join(f"{name} {amount:+.2g}" for name, amount in loss.stand_ins.items())

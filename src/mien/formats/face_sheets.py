@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from mien.core import Drawing, Face, MienError, ParameterTable, Pose, Scene, UnknownNameError
 from mien.render import Renderer
-from mien.vocab import load_remap, next_step, pose_from, vocabularies, vocabulary
+from mien.vocab import pose_from, vocabularies, vocabulary
+from mien.vocab.loss import fits_on
 from mien.vocab.rules import companions
 
 from .notes import notes, software
@@ -179,7 +180,7 @@ def _views(face: Face, pose: Pose, scene: Scene, shots: _Shots) -> tuple[Section
 
 def _names(vocabulary_name: str, face: Face, pose: Pose, scene: Scene, shots: _Shots) -> tuple[Section, ...]:
     table = vocabulary(vocabulary_name)
-    played = load_remap(vocabulary_name, next_step(vocabulary_name, face.family)).index
+    played = fits_on(vocabulary_name, face)
     groups: dict[str, list[Block]] = {}
     for name, rows in moving_rows(table).items():
         first = table[rows[0]]

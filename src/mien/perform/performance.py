@@ -96,7 +96,7 @@ def perform(
         UnknownNameError: the face has no such expression.
         RangeError: there is no such amount.
     """
-    remap = load_remap(VOCABULARY, face.family)
+    remap = load_remap(VOCABULARY, face.family).on(face.parameters)
     voiced = listen(speech, face)
     length_s = voiced.timeline.length_s
     marked = parse_marks(speech.script) if speech.script else MarkedText(speech.text)

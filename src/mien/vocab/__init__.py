@@ -1,11 +1,13 @@
 """Other names for what a face can do: one sparse matrix between two sets of names, tables as data."""
 
-from .posing import pose_from
-from .remap import Remap, families, load_remap, next_step, parse_remap, targets, weigh
+from .loading import families, load_remap, next_step, parse_remap, targets
+from .posing import pose_from, set_values
+from .remap import Link, Remap, weigh
 from .rules import Rule, load_rules, settle
 from .vocabulary import vocabularies, vocabulary
 
 __all__ = [
+    "Link",
     "Remap",
     "Rule",
     "families",
@@ -14,6 +16,7 @@ __all__ = [
     "next_step",
     "parse_remap",
     "pose_from",
+    "set_values",
     "settle",
     "targets",
     "vocabularies",

@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 from mien.core import Face
 from mien.core.mesh import Points
 
-from .fields import angle_deg, displacement, longest_mm
-from .remap import load_remap, next_step
+from .fields import angle_deg, displacement, longest
+from .loading import load_remap, next_step
+from .remap import FITS, whole
 from .vocabulary import vocabulary
 
 Matrix = NDArray[np.float64]
+
+MISSING = "missing"
 
 SWEEPS = 200
 """Rounds over all names in which the shares of a combination are improved; they stand still long before."""
@@ -34,18 +37,22 @@ class Loss:
 
     Attributes:
         name: the name.
-        fit: ``exact``, ``near`` (approximated) or ``missing``.
-        longest_mm: how far the point moves that moves most.
+        fit: ``exact``, ``near`` (approximated), ``stand-in`` (it cannot be shown, something else takes its place) or
+            ``missing``.
+        longest: how far the point moves that moves most: mm, or a drawing's own units.
         nearest: the names that it is compared with, and how much of each: on a face the one other name that does most
             nearly the same, in another vocabulary the best combination.
         angle_deg: between its displacement field and that of ``nearest``; 0 where they do the same.
+        stand_ins: what takes its place, of ``stand-in``: parameters, or names of the vocabulary by whose way it goes,
+            with how much of each.
     """
 
     name: str
     fit: str
-    longest_mm: float = 0.0
+    longest: float = 0.0
     nearest: Mapping[str, float] = field(default_factory=dict)
     angle_deg: float = 90.0
+    stand_ins: Mapping[str, float] = field(default_factory=dict)
 
 
 def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
@@ -55,16 +62,47 @@ def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
 
     Raises:
         UnknownNameError: there is no such vocabulary.
-        MienError: the face has no mesh, or no table for the vocabulary.
+        MienError: there is no table for the vocabulary.
     """
-    remap, fields = load_remap(name, next_step(name, face.family)), _fields(name, face)
+    fits, places = fits_on(name, face), _stand_ins(name, face)
+    fields = {each: displacement(name, each, face) for each in fits}
     names, found = tuple(fields), {}
     for each, likeness in zip(names, _likeness(fields), strict=True):
         other = names[int(likeness.argmax())]
-        fit = "near" if each in remap.approximate else "exact"
         angle = angle_deg(fields[each], fields[other])
-        found[each] = Loss(each, fit, longest_mm(fields[each]), {other: 1.0}, angle)
-    return tuple(found.get(each, Loss(each, "missing")) for each in vocabulary(name).names)
+        stand_ins = places[each] if fits[each] == FITS[-1] else {}
+        found[each] = Loss(each, fits[each], longest(fields[each]), {other: 1.0}, angle, stand_ins)
+    return tuple(found.get(each, Loss(each, MISSING)) for each in vocabulary(name).names)
+
+
+def fits_on(name: str, face: Face) -> dict[str, str]:
+    """How well a face plays each name of a vocabulary: ``exact``, ``near`` or ``stand-in``; without those that it
+    plays nothing for.
+
+    Raises:
+        UnknownNameError: there is no such vocabulary.
+        MienError: there is no table for the vocabulary.
+    """
+    step = next_step(name, face.family)
+    if step == face.family:
+        return dict(load_remap(name, step).on(face.parameters).fits)
+    remap, below = load_remap(name, step), fits_on(step, face)
+    fits: dict[str, str] = {}
+    for link in remap.links:
+        if link.parameter in below:
+            reached = (link.fit, below[link.parameter], fits.get(link.name, FITS[0]))
+            fits[link.name] = max(reached, key=FITS.index)
+    return fits
+
+
+def _stand_ins(name: str, face: Face) -> dict[str, dict[str, float]]:
+    """Name -> what it does to parameters, or to names of the vocabulary by whose way it goes."""
+    step = next_step(name, face.family)
+    remap = load_remap(name, step)
+    found: dict[str, dict[str, float]] = {}
+    for link in (remap.on(face.parameters) if step == face.family else remap).links:
+        found.setdefault(whole(link.name), {})[link.parameter] = link.gain
+    return found
 
 
 def loss_to(name: str, other: str, face: Face) -> tuple[Loss, ...]:
@@ -74,17 +112,17 @@ def loss_to(name: str, other: str, face: Face) -> tuple[Loss, ...]:
 
     Raises:
         UnknownNameError: there is no such vocabulary.
-        MienError: the face has no mesh, or no table for a vocabulary.
+        MienError: there is no table for a vocabulary.
     """
     wanted, given = _fields(name, face), _fields(other, face)
     found = {each: _say(each, wish, given) for each, wish in wanted.items()}
-    return tuple(found.get(each, Loss(each, "missing")) for each in vocabulary(name).names)
+    return tuple(found.get(each, Loss(each, MISSING)) for each in vocabulary(name).names)
 
 
 def _say(name: str, wish: Points, given: Mapping[str, Points]) -> Loss:
     """The loss of one name, whose field is ``wish`` (V, 3), among those of another vocabulary."""
     if not wish.any():
-        return Loss(name, "exact", angle_deg=0.0)
+        return Loss(name, FITS[0], angle_deg=0.0)
     names = list(given)
     basis = np.stack([each.ravel() for each in given.values()])
     products, square = basis @ wish.ravel(), basis @ basis.T
@@ -95,14 +133,14 @@ def _say(name: str, wish: Points, given: Mapping[str, Points]) -> Loss:
         missed = products - square[:, chosen] @ shares
         chosen.append(int((missed / lengths).argmax()))
         shares = nearest_shares(square[np.ix_(chosen, chosen)], products[chosen])
-        reached = angle_deg(wish, (shares @ basis[chosen]).reshape(-1, 3))
+        reached = angle_deg(wish, (shares @ basis[chosen]).reshape(wish.shape))
         if reached > angle - LEAST_GAIN_DEG:
             break
         best, angle = shares, reached
     if angle >= FAR_DEG:
-        return Loss(name, "missing", longest_mm(wish))
+        return Loss(name, MISSING, longest(wish))
     used = {names[n]: float(share) for n, share in zip(chosen, best, strict=False) if share > 0.0}
-    return Loss(name, "exact" if angle < LEAST_GAIN_DEG else "near", longest_mm(wish), used, angle)
+    return Loss(name, FITS[angle >= LEAST_GAIN_DEG], longest(wish), used, angle)
 
 
 def nearest_shares(square: Matrix, products: Matrix) -> Matrix:
@@ -124,8 +162,7 @@ def nearest_shares(square: Matrix, products: Matrix) -> Matrix:
 
 
 def _fields(name: str, face: Face) -> dict[str, Points]:
-    names = load_remap(name, next_step(name, face.family)).from_names
-    return {each: displacement(name, each, face) for each in names}
+    return {each: displacement(name, each, face) for each in fits_on(name, face)}
 
 
 def _likeness(fields: Mapping[str, Points]) -> Matrix:

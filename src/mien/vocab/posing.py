@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from mien.core import Face, Parameter, Pose, UnknownNameError
+from mien.core import Face, Parameter, ParameterTable, Pose, UnknownNameError
 
-from .remap import Remap, load_remap, next_step
+from .loading import load_remap, next_step
+from .remap import HALVES, Remap
 from .rules import load_rules, settle
 from .vocabulary import vocabulary
+
+MOTORS = "toonface"
+"""The vocabulary whose names are set like parameters: ToonFace's motor codes."""
 
 
 def pose_from(name: str, values: Mapping[str, float], face: Face, base: Pose | None = None) -> Pose:
@@ -18,7 +22,8 @@ def pose_from(name: str, values: Mapping[str, float], face: Face, base: Pose | N
     what several names do to one parameter is combined so that it never passes the end of its range and is never cut
     off there: pushes in one direction each take their part of the way that the others leave to the end, and pushes in
     opposite directions are subtracted. A single name gives its exact value; the order of names does not matter. What
-    multiplies (a blink) does so last. A vocabulary without a table for the face goes by way of another one.
+    multiplies (a blink) does so last. A vocabulary without a table for the face goes by way of another one. What the
+    face cannot show is left out, or something stands in for it: ``mien.vocab.loss`` tells.
 
     Args:
         name: of the vocabulary: ``arkit``, ``facs`` …
@@ -34,24 +39,45 @@ def pose_from(name: str, values: Mapping[str, float], face: Face, base: Pose | N
     base = face.neutral if base is None else base
     settled = settle(read_values(name, values), load_rules(name))
     step = next_step(name, face.family)
+    given = {**settled, **halves(settled, vocabulary(name))}
     if step == face.family:
-        return _move(base, load_remap(name, step), settled)
-    moved = _move(Pose.neutral(vocabulary(step)), load_remap(name, step), settled)
+        return _move(base, load_remap(name, step), given)
+    moved = _move(Pose.neutral(vocabulary(step)), load_remap(name, step), given)
     return pose_from(step, moved.changed(), face, base)
 
 
+def set_values(values: Mapping[str, float], face: Face, base: Pose) -> Pose:
+    """The pose with values of the face's own parameters; motor codes of ToonFace move any face, its own names win.
+
+    Raises:
+        UnknownNameError: a name is neither a parameter of the face nor a motor.
+        RangeError: a value is not finite or out of range.
+    """
+    codes = vocabulary(MOTORS)
+    motors = {name: value for name, value in values.items() if name in codes and name not in face.parameters}
+    if motors:
+        base = pose_from(MOTORS, motors, face, base)
+    return base.replace({name: value for name, value in values.items() if name not in motors})
+
+
 def _move(base: Pose, remap: Remap, values: Mapping[str, float]) -> Pose:
-    changes = {}
-    for name, pushes in remap.pushes(values).items():
+    remap = remap.on(base.table)
+    given = {name: value for name, value in values.items() if name in remap.index}
+    changes = {name: combine(base.table[name], moves) for name, moves in remap.moves(given).items()}
+    for name, value in remap.places(given).items():
         row = base.table[name]
-        changes[name] = combine(row, ((base[name] - row.default, 1.0), *pushes))
-    for name, factor in remap.scale(values).items():
+        changes[name] = min(max(value, row.low), row.high)
+    for name, pushes in remap.pushes(given).items():
+        row, acting = base.table[name], [push for push in pushes if push[1]]
+        if acting:
+            changes[name] = combine(row, ((changes.get(name, base[name]) - row.default, 1.0), *acting))
+    for name, factor in remap.scale(given).items():
         changes[name] = changes.get(name, base[name]) * factor
     return base.replace(changes)
 
 
 def read_values(name: str, values: Mapping[str, float]) -> dict[str, float]:
-    """Values by the vocabulary's own names, those at rest left out.
+    """Values by the vocabulary's own names, for those that are given.
 
     Raises:
         UnknownNameError: there is no such vocabulary or name.
@@ -61,7 +87,22 @@ def read_values(name: str, values: Mapping[str, float]) -> dict[str, float]:
     for key in values:
         if key not in table:
             raise UnknownNameError(f"name in the vocabulary {name!r}:", key, [*table.names, *table.symmetric])
-    return Pose.neutral(table).replace(values).changed()
+    pose = Pose.neutral(table).replace(values)
+    return {row: pose[row] for key in values for row in table.resolve(key)}
+
+
+def halves(values: Mapping[str, float], table: ParameterTable) -> dict[str, float]:
+    """How far values lie above and below rest, by ``NAME+`` and ``NAME-``: shares of the way to the end.
+
+    Only of names that rest between the ends of their range, not at 0.
+    """
+    found = {}
+    for name, value in values.items():
+        row = table[name]
+        if row.default:
+            found[name + HALVES[0]] = max(value - row.default, 0.0) / (row.high - row.default)
+            found[name + HALVES[1]] = max(row.default - value, 0.0) / (row.default - row.low)
+    return found
 
 
 def combine(row: Parameter, pushes: Iterable[tuple[float, float]]) -> float:

@@ -2,58 +2,102 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TypeVar
 
 import numpy as np
 
-from mien.core import LoadError, MienError, ParameterTable, UnknownNameError
-from mien.core.sparse import SparseMatrix
+from mien.core import MienError, ParameterTable, UnknownNameError
 from mien.timeline import Track
 
-from .tables import each_side, shipped_tables, shipped_text
-from .vocabulary import vocabularies
+BLENDS = ("add", "multiply", "share", "set")
+FITS = ("exact", "near", "stand-in")
 
-COLUMNS = ("parameter", "gain", "source")
-BLENDS = ("add", "multiply")
-FITS = ("exact", "near")
+HALVES = ("+", "-")
+"""What stands behind a name for the part of its value that is above its rest, and for the part below."""
 
 Value = TypeVar("Value", float, Track)
 
 
+@dataclass(frozen=True)
+class Link:
+    """What a value v of a name does to one parameter.
+
+    Attributes:
+        name: of the vocabulary; with ``+`` or ``-`` behind it v is the share of the way from its rest to its high or
+            low end.
+        parameter: of a family of faces, or a name of another vocabulary.
+        gain: how much.
+        blend: ``add`` adds ``gain * v``; ``share`` adds ``gain * v`` of the way from the parameter's default to the end
+            of its range; ``multiply`` multiplies by ``1 + gain * v`` (a blink shuts an eye however wide an expression
+            has opened it); ``set`` makes what lies beneath count no more: the parameter is ``gain * v``, and for a
+            half of a name ``gain * v`` from its default.
+        fit: ``exact``, ``near``, or ``stand-in`` for something that the family cannot show.
+        source: where this comes from.
+        unless: a parameter; faces that have it do without this link.
+    """
+
+    name: str
+    parameter: str
+    gain: float
+    blend: str = BLENDS[0]
+    fit: str = FITS[0]
+    source: str = ""
+    unless: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Remap:
-    """Two sparse matrices from the names of a vocabulary to the parameters of a family of faces.
-
-    A value v of a name adds ``gain * v`` to a parameter, or multiplies it by ``1 + gain * v`` (a blink shuts an eye
-    however wide an expression has opened it).
+    """A sparse matrix of links from the names of a vocabulary to the parameters of a family of faces.
 
     Attributes:
         title: ``vocabulary.family``, for messages.
-        from_names: names that are given.
-        to_names: parameters that are played.
-        gains: (to, from) what is added.
-        factors: (to, from) what multiplies, less 1.
-        sources: where each row of the table comes from: (from, to) -> text.
-        approximate: names that the parameters come near to only.
+        links: in the order of the table.
+        lacking: names that have lost a link because a face has not all parameters.
     """
 
     title: str
-    from_names: tuple[str, ...]
-    to_names: tuple[str, ...]
-    gains: SparseMatrix
-    factors: SparseMatrix
-    sources: Mapping[tuple[str, str], str]
-    approximate: frozenset[str] = frozenset()
+    links: tuple[Link, ...]
+    lacking: frozenset[str] = frozenset()
+
+    @cached_property
+    def from_names(self) -> tuple[str, ...]:
+        """Names that are given; halves of names each for itself."""
+        return tuple(dict.fromkeys(link.name for link in self.links))
+
+    @cached_property
+    def to_names(self) -> tuple[str, ...]:
+        """Parameters that are played."""
+        return tuple(dict.fromkeys(link.parameter for link in self.links))
 
     @cached_property
     def index(self) -> Mapping[str, int]:
         """Column of each name that is given."""
         return {name: column for column, name in enumerate(self.from_names)}
+
+    @cached_property
+    def fits(self) -> Mapping[str, str]:
+        """How well each name of the vocabulary is played: as its worst link is.
+
+        What is left of a name that has lost a link stands in for it.
+        """
+        fits: dict[str, str] = {}
+        for link in self.links:
+            name = whole(link.name)
+            fit = FITS[-1] if name in self.lacking else link.fit
+            fits[name] = max(fits.get(name, fit), fit, key=FITS.index)
+        return fits
+
+    def on(self, table: ParameterTable) -> Remap:
+        """The remap for one face of the family: shares become amounts, links to what this face has not are left out.
+
+        Args:
+            table: the face's.
+        """
+        return _on(self, table)
 
     def apply(self, values: Mapping[str, float]) -> dict[str, float]:
         """What the values add to parameters, for those parameters that they reach.
@@ -62,8 +106,7 @@ class Remap:
             UnknownNameError: a name is not in the vocabulary.
         """
         return {
-            parameter: sum(gain * value for gain, value in parts)
-            for parameter, parts in self._parts(self.gains, values).items()
+            parameter: sum(gain * value for gain, value in parts) for parameter, parts in self.pushes(values).items()
         }
 
     def scale(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -74,7 +117,7 @@ class Remap:
         """
         return {
             parameter: math.prod(1.0 + gain * value for gain, value in parts)
-            for parameter, parts in self._parts(self.factors, values).items()
+            for parameter, parts in self._parts("multiply", values).items()
         }
 
     def pushes(self, values: Mapping[str, float]) -> dict[str, list[tuple[float, float]]]:
@@ -83,7 +126,24 @@ class Remap:
         Raises:
             UnknownNameError: a name is not in the vocabulary.
         """
-        return self._parts(self.gains, values)
+        return self._parts("add", values)
+
+    def places(self, values: Mapping[str, float]) -> dict[str, float]:
+        """What parameters are set to by names as a whole.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+        """
+        wholes = {name: value for name, value in values.items() if name == whole(name)}
+        return {name: gain * value for name, parts in self._parts("set", wholes).items() for gain, value in parts}
+
+    def moves(self, values: Mapping[str, float]) -> dict[str, list[tuple[float, float]]]:
+        """(gain, value) of each half of a name that moves a parameter from its default, whatever lies beneath.
+
+        Raises:
+            UnknownNameError: a name is not in the vocabulary.
+        """
+        return self._parts("set", {name: value for name, value in values.items() if name != whole(name)})
 
     def apply_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
         """Tracks of what is added to each parameter that the given tracks reach.
@@ -95,20 +155,18 @@ class Remap:
             UnknownNameError: a name is not in the vocabulary.
             MienError: tracks to be added are not made of keys and straight lines.
         """
-        return self._apply_tracks(self.gains, tracks, 0.0)
+        return self._apply_tracks("add", tracks, 0.0)
 
     def scale_tracks(self, tracks: Mapping[str, Track]) -> dict[str, Track]:
         """Tracks of what parameters are multiplied by; otherwise as ``apply_tracks``.
 
         Where several names multiply one parameter their gains are added up, since a product of straight lines is none.
         """
-        return self._apply_tracks(self.factors, tracks, 1.0)
+        return self._apply_tracks("multiply", tracks, 1.0)
 
     def reached_by(self, names: Iterable[str]) -> tuple[str, ...]:
         """Parameters that some of the names add to, in order."""
-        columns = {self._column(name) for name in names}
-        rows = zip(self.to_names, _entries(self.gains), strict=True)
-        return tuple(name for name, entries in rows if columns & entries.keys())
+        return tuple(self._parts("add", dict.fromkeys(names, 1.0)))
 
     def check(self, known_from: ParameterTable, known_to: ParameterTable) -> None:
         """Nothing, when both sets of names exist.
@@ -116,26 +174,63 @@ class Remap:
         Raises:
             UnknownNameError: a name on either side is in no table.
         """
-        for names, table in ((self.from_names, known_from), (self.to_names, known_to)):
+        given = (whole(name) for name in self.from_names)
+        unless = (link.unless for link in self.links if link.unless)
+        for names, table in ((given, known_from), (self.to_names, known_to), (unless, known_to)):
             for name in names:
                 if name not in table:
                     raise UnknownNameError(f"name in the table {self.title!r}:", name, table.names)
 
-    def _column(self, name: str) -> int:
-        if name not in self.index:
-            raise UnknownNameError(f"name in the vocabulary of {self.title!r}:", name, self.from_names)
-        return self.index[name]
+    @cached_property
+    def _matrices(self) -> Mapping[str, Mapping[str, Mapping[str, float]]]:
+        """blend -> parameter -> name -> gain; names in the order of ``from_names``."""
+        matrices: dict[str, dict[str, dict[str, float]]] = {blend: {} for blend in BLENDS}
+        for link in sorted(self.links, key=lambda link: self.index[link.name]):
+            row = matrices[link.blend].setdefault(link.parameter, {})
+            row[link.name] = row.get(link.name, 0.0) + link.gain
+        return matrices
 
-    def _parts(self, matrix: SparseMatrix, values: Mapping[str, Value]) -> dict[str, list[tuple[float, Value]]]:
-        given = {self._column(name): value for name, value in values.items()}
+    def _parts(self, blend: str, values: Mapping[str, Value]) -> dict[str, list[tuple[float, Value]]]:
+        for name in values:
+            if name not in self.index:
+                raise UnknownNameError(f"name in the vocabulary of {self.title!r}:", name, self.from_names)
+        if self._matrices["share"]:
+            raise MienError(
+                f"{self.title}: counts in shares of ranges, which every face has its own of — use on(table)"
+            )
+        rows = self._matrices[blend]
         parts = (
-            (name, [(gain, given[column]) for column, gain in entries.items() if column in given])
-            for name, entries in zip(self.to_names, _entries(matrix), strict=True)
+            (name, [(gain, values[given]) for given, gain in rows[name].items() if given in values])
+            for name in self.to_names
+            if name in rows
         )
         return {name: part for name, part in parts if part}
 
-    def _apply_tracks(self, matrix: SparseMatrix, tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
-        return {name: weigh(parts, rest, name=name) for name, parts in self._parts(matrix, tracks).items()}
+    def _apply_tracks(self, blend: str, tracks: Mapping[str, Track], rest: float) -> dict[str, Track]:
+        return {name: weigh(parts, rest, name=name) for name, parts in self._parts(blend, tracks).items()}
+
+
+def whole(name: str) -> str:
+    """The name that a half belongs to, or the name itself."""
+    return name[:-1] if name.endswith(HALVES) else name
+
+
+@lru_cache(maxsize=64)
+def _on(remap: Remap, table: ParameterTable) -> Remap:
+    known = [link for link in remap.links if not (link.unless and link.unless in table)]
+    links = tuple(_counted(link, table) for link in known if link.parameter in table)
+    lacking = frozenset(whole(link.name) for link in known if link.parameter not in table)
+    return Remap(remap.title, links, lacking)
+
+
+def _counted(link: Link, table: ParameterTable) -> Link:
+    """The link with an amount instead of a share."""
+    if link.blend != "share":
+        return link
+    row = table[link.parameter]
+    return replace(
+        link, blend="add", gain=link.gain * (row.high - row.default if link.gain > 0.0 else row.default - row.low)
+    )
 
 
 def weigh(parts: list[tuple[float, Track]], rest: float = 0.0, *, name: str = "") -> Track:
@@ -154,130 +249,6 @@ def weigh(parts: list[tuple[float, Track]], rest: float = 0.0, *, name: str = ""
     for (gain, track), (when, values) in zip(parts, keys, strict=True):
         total += gain * np.where(times < when[0], values[0], track.evaluate(times)[0])
     return Track.from_keys(times, total, name=name)
-
-
-@lru_cache(maxsize=32)
-def load_remap(vocabulary: str, target: str) -> Remap:
-    """The shipped remap from a vocabulary to a family of faces, or to another vocabulary.
-
-    Raises:
-        UnknownNameError: there is no such vocabulary.
-        MienError: there is no table for the two.
-    """
-    if target not in targets(vocabulary):
-        raise _no_table(vocabulary, target)
-    title = f"{vocabulary}.{target}"
-    return parse_remap(shipped_text(title), title=title, place=f"{title}.csv")
-
-
-def next_step(vocabulary: str, family: str) -> str:
-    """What the names of a vocabulary become on their way to a family of faces: the family, or another vocabulary.
-
-    Raises:
-        UnknownNameError: there is no such vocabulary.
-        MienError: there is no way.
-    """
-    known = targets(vocabulary)
-    if family in known:
-        return family
-    for other in known:
-        if other in vocabularies() and family in families(other):
-            return other
-    raise _no_table(vocabulary, family)
-
-
-def targets(vocabulary: str) -> tuple[str, ...]:
-    """Families of faces, and other vocabularies, that a vocabulary has a table for.
-
-    Raises:
-        UnknownNameError: there is no such vocabulary.
-    """
-    if vocabulary not in vocabularies():
-        raise UnknownNameError("vocabulary", vocabulary, vocabularies())
-    parts = (name.split(".") for name in shipped_tables())
-    return tuple(part[1] for part in parts if len(part) == 2 and part[0] == vocabulary)
-
-
-def families(vocabulary: str) -> tuple[str, ...]:
-    """Families of faces that a vocabulary can play, some of them by way of another vocabulary.
-
-    Raises:
-        UnknownNameError: there is no such vocabulary.
-    """
-    found = {
-        family for each in targets(vocabulary) for family in (families(each) if each in vocabularies() else (each,))
-    }
-    return tuple(sorted(found))
-
-
-def _no_table(vocabulary: str, family: str) -> MienError:
-    known = families(vocabulary)
-    others = "there is a table for " + " and ".join(known) if known else "it can play no family yet"
-    return MienError(f"vocabulary {vocabulary!r} cannot play faces of the family {family!r} — {others}")
-
-
-def parse_remap(text: str, *, title: str, place: str) -> Remap:
-    """The remap in a table: lines of name, parameter, gain, blend (add, or multiply), fit (exact, or near) and source.
-
-    A line that names a ``{side}`` stands for one of either side.
-
-    Raises:
-        LoadError: with the line at which the table goes wrong.
-    """
-    reader = csv.DictReader(text.splitlines())
-    fields = list(reader.fieldnames or [])
-    if len(fields) < 4 or not set(COLUMNS) <= set(fields):
-        raise LoadError(place, f"want a name and the columns {', '.join(COLUMNS)}, got {', '.join(fields)}", line=1)
-    from_names: dict[str, int] = {}
-    to_names: dict[str, int] = {}
-    entries: dict[str, list[tuple[int, int, float]]] = {blend: [] for blend in BLENDS}
-    sources: dict[tuple[str, str], str] = {}
-    approximate: set[str] = set()
-    for row in reader:
-        gain, blend, fit = _parse_row(row, place, reader.line_num)
-        for side in each_side(row):
-            name, parameter = side[fields[0]], side["parameter"]
-            column = from_names.setdefault(name, len(from_names))
-            entries[blend].append((to_names.setdefault(parameter, len(to_names)), column, gain))
-            sources[name, parameter] = row["source"]
-            approximate |= {name} if fit == FITS[1] else set()
-    shape = (len(to_names), len(from_names))
-    gains, factors = (_matrix(entries[blend], shape) for blend in BLENDS)
-    return Remap(title, tuple(from_names), tuple(to_names), gains, factors, sources, frozenset(approximate))
-
-
-def _parse_row(row: Mapping[str, str], place: str, line: int) -> tuple[float, str, str]:
-    if None in row.values() or None in row:
-        raise LoadError(place, f"want {len(row)} fields", line=line)
-    try:
-        gain = float(row["gain"])
-    except ValueError:
-        gain = math.nan
-    if not math.isfinite(gain):
-        raise LoadError(place, f"gain {row['gain']!r} is not a finite number", line=line)
-    blend, fit = (_choose(row, key, choices, place, line) for key, choices in (("blend", BLENDS), ("fit", FITS)))
-    return gain, blend, fit
-
-
-def _choose(row: Mapping[str, str], key: str, choices: tuple[str, ...], place: str, line: int) -> str:
-    """What a row says, or the first choice when it says nothing."""
-    choice = row.get(key) or choices[0]
-    if choice not in choices:
-        raise LoadError(place, f"{key} {choice!r} is not {' or '.join(choices)}", line=line)
-    return choice
-
-
-def _matrix(entries: list[tuple[int, int, float]], shape: tuple[int, int]) -> SparseMatrix:
-    rows = np.array([row for row, _, _ in entries], dtype=np.int64)
-    columns = np.array([column for _, column, _ in entries], dtype=np.int64)
-    return SparseMatrix.from_entries(rows, columns, np.array([gain for _, _, gain in entries], dtype=np.float64), shape)
-
-
-@lru_cache(maxsize=64)
-def _entries(matrix: SparseMatrix) -> tuple[dict[int, float], ...]:
-    """(column -> weight) of each row."""
-    parts = (slice(*matrix.starts[row : row + 2]) for row in range(matrix.shape[0]))
-    return tuple(dict(zip(matrix.columns[part].tolist(), matrix.weights[part].tolist(), strict=True)) for part in parts)
 
 
 def _straight_keys(track: Track, name: str) -> tuple[np.ndarray, np.ndarray]:

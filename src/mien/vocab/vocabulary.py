@@ -18,7 +18,9 @@ def vocabularies() -> Mapping[str, str]:
 
 @cache
 def vocabulary(name: str) -> ParameterTable:
-    """The names of a vocabulary with their ranges, units and meanings; all rest at 0, where nothing moves.
+    """The names of a vocabulary with their ranges, units and meanings.
+
+    Nearly all rest at 0, where nothing moves; motors of ToonFace rest where they lie in a face of middling features.
 
     Spellings that other programs use (``eyeBlink_L``, ``EyeBlinkLeft``) are aliases.
 
@@ -37,6 +39,7 @@ def _parameter(row: Row) -> Parameter:
         row["name"],
         float(row.get("low", "0")),
         float(row.get("high", "1")),
+        float(row.get("default", "0")),
         unit=row.get("unit", "share"),
         group=row["group"],
         odd=row.get("odd") == "1",

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mien.core import Parameter, Pose, RangeError, UnknownNameError
-from mien.vocab import families, load_remap, next_step, pose_from, vocabularies, vocabulary
-from mien.vocab.fields import angle_deg, displacement, longest_mm
+from mien.vocab import families, load_remap, pose_from, vocabularies, vocabulary
+from mien.vocab.fields import angle_deg, displacement, longest
 from mien.vocab.posing import combine
 from support import face
 
@@ -30,7 +30,7 @@ def test_there_are_52_names() -> None:
 
 @pytest.mark.parametrize("name", ARKIT)
 def test_every_name_is_seen(name: str) -> None:
-    assert longest_mm(displacement("arkit", name, face("head"))) >= 0.5
+    assert longest(displacement("arkit", name, face("head"))) >= 0.5
 
 
 @pytest.mark.parametrize("stem", SIDED)
@@ -125,13 +125,11 @@ def test_combined_pushes_stay_in_range_in_any_order_and_more_is_more(pushes: lis
 @pytest.mark.parametrize("name", [name for name in vocabularies() if "head" in families(name)])
 def test_any_values_give_a_pose_in_range(name: str) -> None:
     table, head, random = vocabulary(name), face("head"), np.random.default_rng(4)
-    names = set(load_remap(name, next_step(name, "head")).from_names)
     for _ in range(50):
         values = {
             row.name: float(random.choice([row.low, row.high, random.uniform(row.low, row.high)])) for row in table
         }
-        pose = pose_from(name, {key: value for key, value in values.items() if key in names}, head)
-        assert isinstance(pose, Pose)
+        assert isinstance(pose_from(name, values, head), Pose)
 
 
 def test_angle_between_fields() -> None:
@@ -141,4 +139,4 @@ def test_angle_between_fields() -> None:
     assert angle_deg(east, 3.0 * east) == pytest.approx(0.0, abs=1e-5)
     assert angle_deg(east, east + 2.0 * north) == pytest.approx(45.0)
     assert angle_deg(east, 0.0 * east) == 90.0
-    assert longest_mm(east + north) == pytest.approx(2.0)
+    assert longest(east + north) == pytest.approx(2.0)

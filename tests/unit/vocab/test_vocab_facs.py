@@ -6,7 +6,7 @@ import pytest
 from mien.core import MienError, UnknownNameError
 from mien.vocab import load_remap, load_rules, pose_from, settle, vocabulary
 from mien.vocab.facs import INTENSITIES, parse_units
-from mien.vocab.fields import displacement, longest_mm
+from mien.vocab.fields import displacement, longest
 from mien.vocab.rules import Rule
 from support import face
 
@@ -55,7 +55,7 @@ def test_the_promised_units_are_listed() -> None:
 
 @pytest.mark.parametrize("name", UNITS)
 def test_every_unit_is_seen_on_the_head(name: str) -> None:
-    assert longest_mm(displacement("facs", name, face("head"))) >= 0.5
+    assert longest(displacement("facs", name, face("head"))) >= 0.5
 
 
 def test_sides_are_the_own_ones() -> None:

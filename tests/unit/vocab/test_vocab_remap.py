@@ -121,7 +121,7 @@ def test_family_without_a_table_is_refused() -> None:
 @pytest.mark.parametrize("family", families("channels"))
 def test_every_row_of_a_table_has_a_source_and_a_known_channel(family: str) -> None:
     remap = load_remap("channels", family)
-    assert all(remap.sources.values())
+    assert all(link.source for link in remap.links)
     assert set(remap.from_names) <= set(vocabulary("channels").names)
 
 

@@ -22,7 +22,7 @@ def test_all_shapes_are_there_and_played(name: str) -> None:
 @pytest.mark.parametrize(("name", "shape"), NAMES)
 def test_a_shape_is_the_mean_of_the_phones_that_its_source_names(name: str, shape: str) -> None:
     remap, table = load_remap(name, "channels"), phone_table()
-    source = next(text for (each, _), text in remap.sources.items() if each == shape)
+    source = next(link.source for link in remap.links if link.name == shape)
     phones = source.removeprefix("mean of the phones ").removesuffix(", which speech plays").split()
     rows = [table.rows[table.index[phone]] for phone in phones]
     want = {channel: sum(row.targets[n] for row in rows) / len(rows) for n, channel in enumerate(BLENDED)}
