@@ -35,6 +35,7 @@ class Shape:
         self._span = tuple(self._stretch(line) for line in polygon.span or ())
         self._stroke = None if polygon.stroke is None else self._stretch(polygon.stroke)
         self._changes = tuple(self._find_changes())
+        self._last: tuple[tuple[float, ...], Contours] | None = None
 
     @cached_property
     def motors(self) -> frozenset[str]:
@@ -48,9 +49,14 @@ class Shape:
 
     def contours(self, moment: Moment) -> Contours:
         """Contours (N, 2), y down, before the head turns."""
-        if not any(moment.activation(code) for code in self.motors):
+        key = tuple(moment.activation(code) for code in self.motors)
+        if not any(key):
             return self.rest
-        return self._trace(moment)
+        # From frame to frame most features stand still.
+        last = self._last
+        if last is None or last[0] != key:
+            last = self._last = key, self._trace(moment)
+        return last[1]
 
     def _trace(self, moment: Moment) -> Contours:
         contours = self._source(moment)
