@@ -84,6 +84,64 @@ def test_reached_parameters(remap: Remap) -> None:
     assert remap.reached_by(["round", "jaw"]) == ("jaw.rotation", "mouth.width")
 
 
+FACES = """name,parameter,gain,blend,fit,unless,source
+open,mouth.bottom,0.5,share,exact,,own
+close,mouth.bottom,-0.5,share,exact,,own
+raise,mouth.top,1,share,near,,own
+raise,brow,-0.4,share,stand-in,mouth.top,own
+wave,hand,1,add,exact,,own
+wave,brow,0.1,add,exact,,own
+M+,brow,0.4,set,exact,,own
+M-,brow,-0.2,set,near,,own
+T,brow,-1,set,exact,,own
+"""
+BROW, BOTTOM, TOP = Parameter("brow", 0, 1, 0.5), Parameter("mouth.bottom", 0, 1, 0.2), Parameter("mouth.top", 0, 1)
+
+
+@pytest.fixture
+def on_all() -> Remap:
+    return parse_remap(FACES, title="names.toy", place="names.toy.csv").on(ParameterTable((BROW, BOTTOM, TOP)))
+
+
+@pytest.fixture
+def on_few() -> Remap:
+    return parse_remap(FACES, title="names.toy", place="names.toy.csv").on(ParameterTable((BROW, BOTTOM)))
+
+
+def test_a_share_is_of_the_way_that_a_face_has(on_all: Remap) -> None:
+    assert on_all.apply({"open": 1.0}) == {"mouth.bottom": pytest.approx(0.4)}
+    assert on_all.apply({"close": 0.5}) == {"mouth.bottom": pytest.approx(-0.05)}
+    with pytest.raises(MienError, match=r"names\.toy: counts in shares"):
+        parse_remap(FACES, title="names.toy", place="names.toy.csv").apply({"open": 1.0})
+
+
+def test_links_to_what_a_face_has_not_are_left_out(on_all: Remap, on_few: Remap) -> None:
+    assert on_all.apply({"wave": 1.0}) == on_few.apply({"wave": 1.0}) == {"brow": 0.1}
+    assert on_few.to_names == ("mouth.bottom", "brow")
+
+
+def test_something_else_is_played_unless_a_face_has_the_parameter(on_all: Remap, on_few: Remap) -> None:
+    assert on_all.apply({"raise": 1.0}) == {"mouth.top": 1.0}
+    assert on_few.apply({"raise": 1.0}) == {"brow": -0.2}
+
+
+def test_a_name_fits_as_its_worst_link_and_what_is_left_of_it_stands_in(on_all: Remap, on_few: Remap) -> None:
+    assert on_all.fits == {
+        "open": "exact",
+        "close": "exact",
+        "raise": "near",
+        "wave": "stand-in",
+        "M": "near",
+        "T": "exact",
+    }
+    assert on_few.fits["raise"] == "stand-in"
+
+
+def test_places_are_gain_times_value_and_halves_move_from_rest(on_all: Remap) -> None:
+    assert on_all.places({"T": 0.25, "M+": 1.0}) == {"brow": -0.25}
+    assert on_all.moves({"T": 0.25, "M+": 0.5, "M-": 0.0}) == {"brow": [(0.4, 0.5), (-0.2, 0.0)]}
+
+
 def test_check_names_the_missing_parameter(remap: Remap) -> None:
     known = ParameterTable(tuple(Parameter(name, 0, 1) for name in ("jaw", "round", "spread", "blink", "brow")))
     played = ParameterTable((Parameter("jaw.rotation", 0, 20), *both_sides(Parameter("lid", 0, 1))))

@@ -164,7 +164,8 @@ def resting_share(code: str, limits: Limits) -> float:
     """P_ctrl at which a motor moves nothing: where rest lies between its limits; 0 of degrees and of what is signed."""
     if motors()[code].unit != "share" or limits.high == limits.low:
         return 0.0
-    return -limits.low / (limits.high - limits.low)
+    # Adding 0 makes -0 a 0.
+    return -limits.low / (limits.high - limits.low) + 0.0
 
 
 def rest_of(character: Character) -> Moment:
