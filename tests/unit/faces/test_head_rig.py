@@ -100,8 +100,8 @@ def test_no_expression_moves_skull_or_jaw(name: str) -> None:
     np.testing.assert_allclose(motion.shifts[1:3], 0.0, atol=1e-12)
 
 
-def test_every_face_that_ships_has_joints() -> None:
-    for name, _ in mien.face_names():
+def test_every_head_that_ships_has_joints() -> None:
+    for name in (name for name, _ in mien.face_names() if name.startswith("head")):
         face = mien.load_face(name)
         assert isinstance(face, Rigged)
         mesh = face.shape(face.neutral)

