@@ -1,0 +1,259 @@
+"""The shapes of an SVG file, in one system of coordinates, with the colours in which they are painted.
+
+A drawing from anywhere: nothing is fetched, expanded without bound or executed; what cannot be shown is remarked on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from mien.core import LoadError
+
+from .svg_reader_outlines import Affine, Contour, Outline, count_points, ellipse, scale_of, then, transform
+from .svg_reader_paints import Paint, Paints, parse_share
+from .svg_reader_paths import parse_length, parse_transform
+from .svg_reader_shapes import MOST_POINTS, SHAPES, fit_view, read_attribute, read_canvas, read_outline, too_many_points
+from .svg_reader_style import INITIAL, cascade, read_rules
+from .svg_reader_xml import MOST_ELEMENTS, Element, Remarks, read_elements
+
+DEEPEST_VISIT = 200
+"""How deep elements may lie in one another once what is used is put in its place."""
+
+GROUPS = ("g", "svg", "a", "switch", "symbol")
+SILENT = (
+    "defs", "title", "desc", "metadata", "style", "linearGradient", "radialGradient", "solidColor", "clipPath", "mask",
+    "pattern", "marker", "filter", "view",
+)  # fmt: skip
+"""Elements that show nothing by themselves."""
+
+REASONS = {
+    "image": "pictures are neither read nor fetched",
+    "text": "turn letters into paths first",
+    "animate": "a face moves by its motors",
+    "animateTransform": "a face moves by its motors",
+    "animateMotion": "a face moves by its motors",
+    "set": "a face moves by its motors",
+}
+"""Why elements are left out."""
+
+UNSHOWN = ("clip-path", "mask", "filter", "stroke-dasharray")
+"""Properties that change what is seen and are not followed."""
+
+
+@dataclass(frozen=True)
+class SvgShape:
+    """One outline that is filled or stroked.
+
+    Attributes:
+        names: labels and ids, its own first, then of the groups around it.
+        line: of the file.
+        outline: in the drawing's units, x to the right, y downwards.
+        color: sRGB and alpha 0..1.
+        even_odd: whether what is enclosed twice is a hole.
+        width: of the stroke, in the drawing's units; 0 for a filled shape.
+    """
+
+    names: tuple[str, ...]
+    line: int
+    outline: Outline
+    color: Paint
+    even_odd: bool = False
+    width: float = 0.0
+
+
+@dataclass(frozen=True)
+class SvgDrawing:
+    """What an SVG file shows.
+
+    Attributes:
+        path: the file.
+        size: width and height of the canvas, whose upper left corner is the origin.
+        shapes: in the order in which they are painted.
+        remarks: what is not shown as it was meant, a line each.
+    """
+
+    path: Path
+    size: tuple[float, float]
+    shapes: tuple[SvgShape, ...]
+    remarks: tuple[str, ...]
+
+
+def read_svg(path: Path | str) -> SvgDrawing:
+    """The shapes of an SVG file.
+
+    Raises:
+        LoadError: it is no SVG, declares entities, is too large, has more than ``MOST_POINTS`` points, shows nothing,
+            or a number in it cannot be understood.
+    """
+    path = Path(path)
+    remarks = Remarks(path)
+    root = read_elements(path, remarks)
+    left, top, width, height = read_canvas(path, root)
+    walk = _Walk(path, root, remarks)
+    walk.visit(root, _Place((1.0, 0.0, 0.0, 1.0, -left, -top), INITIAL, (), (width, height), 1.0))
+    if not walk.shapes:
+        hint = " ".join(remarks.texts()[:1]) or "is everything in <defs>, or not displayed?"
+        raise LoadError(path, "shows no shape", hint=hint)
+    return SvgDrawing(path, (width, height), tuple(walk.shapes), remarks.texts())
+
+
+@dataclass(frozen=True)
+class _Place:
+    """What an element takes over from those around it.
+
+    Attributes:
+        affine: from its coordinates to the drawing's.
+        style: values of the properties.
+        names: of the groups, the innermost first.
+        view: width and height that percentages are of.
+        opacity: of the groups.
+        depth: how many there are around it.
+    """
+
+    affine: Affine
+    style: Mapping[str, str]
+    names: tuple[str, ...]
+    view: tuple[float, float]
+    opacity: float
+    depth: int = 0
+
+
+class _Walk:
+    """Goes through the elements and gathers shapes."""
+
+    def __init__(self, path: Path, root: Element, remarks: Remarks) -> None:
+        self.shapes: list[SvgShape] = []
+        self._path, self._root, self._remarks = path, root, remarks
+        self._by_id = {element.attributes["id"]: element for element in root if "id" in element.attributes}
+        self._rules = read_rules(root, remarks)
+        self._paints = Paints(self._by_id, self._rules, remarks)
+        self._points = self._visited = 0
+        self._used: list[str] = []
+
+    def visit(self, element: Element, around: _Place) -> None:
+        """Gathers what an element shows."""
+        self._visited += 1
+        if self._visited > MOST_ELEMENTS or around.depth > DEEPEST_VISIT:
+            raise LoadError(
+                self._path,
+                f"<use> makes more than {MOST_ELEMENTS:,} elements, or nests them more than {DEEPEST_VISIT} deep",
+                line=element.line,
+                hint="draw what is used instead",
+            )
+        if element.name in SILENT:
+            return
+        style = cascade(element, around.style, self._rules, self._remarks)
+        if style["display"] == "none":
+            return
+        for name in UNSHOWN:
+            if style[name] != "none":
+                self._remarks.add(element.line, f"{name} of <{element.name}> is not followed")
+        turned = read_attribute(self._path, element, "transform", parse_transform, "")
+        own = (element.attributes[key] for key in ("label", "id") if key in element.attributes)
+        opacity = around.opacity * self._share(element, style["opacity"])
+        place = _Place(
+            then(turned, around.affine), style, (*own, *around.names), around.view, opacity, around.depth + 1
+        )
+        if element.name in GROUPS:
+            if element.name == "svg" and element is not self._root:
+                place = self._enter_view(element, element.attributes, place)
+            for child in element.children:
+                self.visit(child, place)
+        elif element.name == "use":
+            self._use(element, place)
+        elif element.name in SHAPES:
+            self._paint(element, place)
+        else:
+            self._remarks.add(
+                element.line, f"<{element.name}> is left out: {REASONS.get(element.name, 'it is no shape')}"
+            )
+
+    def _use(self, element: Element, place: _Place) -> None:
+        href = element.attributes.get("href", "").strip()
+        target = self._by_id.get(href[1:]) if href.startswith("#") else None
+        if target is None:
+            reason = "there is no such thing in it" if href.startswith("#") else "nothing outside the file is fetched"
+            self._remarks.add(element.line, f"<use> of {href[:60]!r} is left out: {reason}")
+            return
+        if href in self._used:
+            raise LoadError(self._path, f"<use> of {href!r} leads back to itself", line=element.line)
+        shift = (self._length(element, "x", place.view[0]), self._length(element, "y", place.view[1]))
+        place = replace(place, affine=then((1.0, 0.0, 0.0, 1.0, *shift), place.affine))
+        if target.name == "symbol":
+            sides = {side: element.attributes[side] for side in ("width", "height") if side in element.attributes}
+            place = self._enter_view(target, sides, place)
+        self._used.append(href)
+        self.visit(target, place)
+        self._used.pop()
+
+    def _enter_view(self, element: Element, sides: Mapping[str, str], place: _Place) -> _Place:
+        """The place inside an element with a view of its own."""
+        given = _with_attributes(element, sides)
+        width, height = (
+            self._length(given, name, whole, "100%")
+            for name, whole in zip(("width", "height"), place.view, strict=True)
+        )
+        corner = (1.0, 0.0, 0.0, 1.0, self._length(given, "x", place.view[0]), self._length(given, "y", place.view[1]))
+        fitted = fit_view(self._path, element, width, height)
+        inside = (width, height)
+        return replace(place, affine=then(fitted, then(corner, place.affine)), view=inside)
+
+    def _paint(self, element: Element, place: _Place) -> None:
+        if place.style["visibility"] != "visible":
+            return
+        outline = read_outline(self._path, element, place.view)
+        self._points += count_points(outline)
+        if self._points > MOST_POINTS:
+            raise too_many_points(self._path, element)
+        outline = transform(outline, place.affine)
+        filled = tuple(contour for contour in outline if len(contour.segments) > 1 or len(contour.segments[0]) > 1)
+        if filled and element.name != "line" and (color := self._color(element, place, "fill")):
+            closed = tuple(replace(contour, closed=True) for contour in filled)
+            self.shapes.append(
+                SvgShape(place.names, element.line, closed, color, place.style["fill-rule"] == "evenodd")
+            )
+        if outline and (color := self._color(element, place, "stroke")):
+            width = self._length_of(element, place.style["stroke-width"], place.view) * scale_of(place.affine)
+            if width > 0.0:
+                self._stroke(element, place, outline, color, width)
+
+    def _stroke(self, element: Element, place: _Place, outline: Outline, color: Paint, width: float) -> None:
+        """A stroke; one without length and with round ends is a dot."""
+        lines: list[Contour] = []
+        for contour in outline:
+            if any(point != contour.start for segment in contour.segments for point in segment):
+                lines.append(contour)
+            elif place.style["stroke-linecap"] == "round":
+                dot = ellipse(*contour.start, width / 2.0, width / 2.0)
+                self.shapes.append(SvgShape(place.names, element.line, dot, color))
+        if lines:
+            self.shapes.append(SvgShape(place.names, element.line, tuple(lines), color, width=width))
+
+    def _color(self, element: Element, place: _Place, of: str) -> Paint | None:
+        color = self._paints.find(place.style[of], place.style, element.line)
+        if color is None:
+            return None
+        alpha = color[3] * self._share(element, place.style[f"{of}-opacity"]) * place.opacity
+        return (*color[:3], alpha) if alpha > 0.0 else None
+
+    def _share(self, element: Element, text: str) -> float:
+        try:
+            return parse_share(text)
+        except ValueError:
+            raise LoadError(self._path, f"{text[:40]!r} is no opacity, want 0 to 1", line=element.line) from None
+
+    def _length(self, element: Element, name: str, whole: float, otherwise: str = "0") -> float:
+        return read_attribute(self._path, element, name, lambda text: parse_length(text, whole), otherwise)
+
+    def _length_of(self, element: Element, text: str, view: tuple[float, float]) -> float:
+        try:
+            return parse_length(text, max(view))
+        except ValueError as error:
+            raise LoadError(self._path, f"stroke-width: {error}", line=element.line) from None
+
+
+def _with_attributes(element: Element, attributes: Mapping[str, str]) -> Element:
+    """The element with some attributes replaced."""
+    return replace(element, attributes={**element.attributes, **attributes})
