@@ -21,6 +21,9 @@ from .svg_reader_xml import MOST_ELEMENTS, Element, Remarks, read_elements
 DEEPEST_VISIT = 200
 """How deep elements may lie in one another once what is used is put in its place."""
 
+DOT = 0.02
+"""A stroke that is shorter than this share of its width is a dot."""
+
 GROUPS = ("g", "svg", "a", "switch", "symbol")
 SILENT = (
     "defs", "title", "desc", "metadata", "style", "linearGradient", "radialGradient", "solidColor", "clipPath", "mask",
@@ -47,7 +50,8 @@ class SvgShape:
     """One outline that is filled or stroked.
 
     Attributes:
-        names: labels and ids, its own first, then of the groups around it.
+        names: its own label and id.
+        groups: labels and ids of the groups around it, the innermost first.
         line: of the file.
         outline: in the drawing's units, x to the right, y downwards.
         color: sRGB and alpha 0..1.
@@ -56,6 +60,7 @@ class SvgShape:
     """
 
     names: tuple[str, ...]
+    groups: tuple[str, ...]
     line: int
     outline: Outline
     color: Paint
@@ -92,7 +97,7 @@ def read_svg(path: Path | str) -> SvgDrawing:
     root = read_elements(path, remarks)
     left, top, width, height = read_canvas(path, root)
     walk = _Walk(path, root, remarks)
-    walk.visit(root, _Place((1.0, 0.0, 0.0, 1.0, -left, -top), INITIAL, (), (width, height), 1.0))
+    walk.visit(root, _Place((1.0, 0.0, 0.0, 1.0, -left, -top), INITIAL, (), (), (width, height), 1.0))
     if not walk.shapes:
         hint = " ".join(remarks.texts()[:1]) or "is everything in <defs>, or not displayed?"
         raise LoadError(path, "shows no shape", hint=hint)
@@ -106,7 +111,8 @@ class _Place:
     Attributes:
         affine: from its coordinates to the drawing's.
         style: values of the properties.
-        names: of the groups, the innermost first.
+        names: its own.
+        groups: names of the groups, the innermost first.
         view: width and height that percentages are of.
         opacity: of the groups.
         depth: how many there are around it.
@@ -115,6 +121,7 @@ class _Place:
     affine: Affine
     style: Mapping[str, str]
     names: tuple[str, ...]
+    groups: tuple[str, ...]
     view: tuple[float, float]
     opacity: float
     depth: int = 0
@@ -151,11 +158,10 @@ class _Walk:
             if style[name] != "none":
                 self._remarks.add(element.line, f"{name} of <{element.name}> is not followed")
         turned = read_attribute(self._path, element, "transform", parse_transform, "")
-        own = (element.attributes[key] for key in ("label", "id") if key in element.attributes)
+        own = tuple(element.attributes[key] for key in ("label", "id") if key in element.attributes)
         opacity = around.opacity * self._share(element, style["opacity"])
-        place = _Place(
-            then(turned, around.affine), style, (*own, *around.names), around.view, opacity, around.depth + 1
-        )
+        groups = (*around.names, *around.groups)
+        place = _Place(then(turned, around.affine), style, own, groups, around.view, opacity, around.depth + 1)
         if element.name in GROUPS:
             if element.name == "svg" and element is not self._root:
                 place = self._enter_view(element, element.attributes, place)
@@ -212,7 +218,7 @@ class _Walk:
         if filled and element.name != "line" and (color := self._color(element, place, "fill")):
             closed = tuple(replace(contour, closed=True) for contour in filled)
             self.shapes.append(
-                SvgShape(place.names, element.line, closed, color, place.style["fill-rule"] == "evenodd")
+                SvgShape(place.names, place.groups, element.line, closed, color, place.style["fill-rule"] == "evenodd")
             )
         if outline and (color := self._color(element, place, "stroke")):
             width = self._length_of(element, place.style["stroke-width"], place.view) * scale_of(place.affine)
@@ -223,13 +229,13 @@ class _Walk:
         """A stroke; one without length and with round ends is a dot."""
         lines: list[Contour] = []
         for contour in outline:
-            if any(point != contour.start for segment in contour.segments for point in segment):
+            if _reach(contour) > DOT * width:
                 lines.append(contour)
             elif place.style["stroke-linecap"] == "round":
                 dot = ellipse(*contour.start, width / 2.0, width / 2.0)
-                self.shapes.append(SvgShape(place.names, element.line, dot, color))
+                self.shapes.append(SvgShape(place.names, place.groups, element.line, dot, color))
         if lines:
-            self.shapes.append(SvgShape(place.names, element.line, tuple(lines), color, width=width))
+            self.shapes.append(SvgShape(place.names, place.groups, element.line, tuple(lines), color, width=width))
 
     def _color(self, element: Element, place: _Place, of: str) -> Paint | None:
         color = self._paints.find(place.style[of], place.style, element.line)
@@ -252,6 +258,12 @@ class _Walk:
             return parse_length(text, max(view))
         except ValueError as error:
             raise LoadError(self._path, f"stroke-width: {error}", line=element.line) from None
+
+
+def _reach(contour: Contour) -> float:
+    """How far a contour goes from its start at most, along either axis."""
+    x, y = contour.start
+    return max(max(abs(px - x), abs(py - y)) for segment in contour.segments for px, py in segment)
 
 
 def _with_attributes(element: Element, attributes: Mapping[str, str]) -> Element:
