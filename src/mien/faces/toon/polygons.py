@@ -142,24 +142,32 @@ class Shape:
         return follow
 
     def _follow_curve(self, feature: Feature) -> Change:
-        """Vertices go along with the curve at their place between its ends."""
+        """Vertices go along with the curve at their place between its ends; of two curves more with the nearer one."""
         vertices = np.concatenate(self._outline)
-        lower = self.polygon.line == "lower"
+        named, paired = self.polygon.line, feature.name not in BROWS
+        lines = [named == "lower"] if named or not paired else [False, True]
+        tracks = [self._track(feature, vertices, lower=lower) for lower in lines]
+        rests = [track.points(self._rest, lower=lower) for track, lower in zip(tracks, lines, strict=True)]
+        shares = _nearness(vertices, rests) * self.polygon.follow
+        if self.polygon.reach is not None:
+            away = np.min([np.abs(vertices[:, 1] - rest[:, 1]) for rest in rests], axis=0)
+            near = np.maximum(0.0, 1.0 - away / self.polygon.reach)
+            shares = shares * near * np.sqrt(near)
+
+        def follow(points: Floats, moment: Moment) -> Floats:
+            for track, lower, rest, share in zip(tracks, lines, rests, shares, strict=True):
+                points = points + share[:, None] * (track.points(moment, lower=lower) - rest)
+            return points
+
+        return follow
+
+    def _track(self, feature: Feature, vertices: Floats, *, lower: bool) -> Track:
+        """Where vertices are along a line."""
         left, middle, right = self._rest.ends(feature.name, lower=lower)
         side = vertices[:, 0] < middle[0]
         run = np.where(side, middle[0] - left[0], right[0] - middle[0])
         places = np.clip((vertices[:, 0] - middle[0]) / np.where(np.abs(run) > 1e-6, run, 1.0), -1.0, 1.0)
-        track = Track(feature, places)
-        rest = track.points(self._rest, lower=lower)
-        share = np.full(len(vertices), self.polygon.follow)
-        if self.polygon.reach is not None:
-            near = np.maximum(0.0, 1.0 - np.abs(vertices[:, 1] - rest[:, 1]) / self.polygon.reach)
-            share = share * near * np.sqrt(near)
-
-        def follow(points: Floats, moment: Moment) -> Floats:
-            return points + share[:, None] * (track.points(moment, lower=lower) - rest)
-
-        return follow
+        return Track(feature, places)
 
     def _move_along(self, points: Floats, moment: Moment) -> Floats:
         """The whole outline goes along with one control point."""
@@ -202,6 +210,17 @@ def _line_names(feature: Feature, line: str) -> list[tuple[str, str]]:
     above, below = (left, upper, right), (left, lower, right)
     chosen = [above] if line == "upper" or feature.name in BROWS else [below] if line == "lower" else [above, below]
     return [pair for names in chosen for pair in pairwise(names)]
+
+
+def _nearness(vertices: Floats, lines: Sequence[Floats]) -> Floats:
+    """(L, N) share of each vertex in each of one or two lines (N, 2), the upper first: all of it beyond either."""
+    if len(lines) == 1:
+        return np.ones((1, len(vertices)))
+    upper, lower = (line[:, 1] for line in lines)
+    gap = lower - upper
+    down = np.where(gap > 1e-6, (vertices[:, 1] - upper) / np.where(gap > 1e-6, gap, 1.0), vertices[:, 1] > upper)
+    down = np.clip(down, 0.0, 1.0)
+    return np.stack([1.0 - down, down])
 
 
 def _fading(moment: Moment, eye: str) -> float:
