@@ -11,18 +11,14 @@ from typing import Any
 from mien.core import MienError
 
 from .svg_reader import read_svg
-from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette
 from .toon_from_svg_guess import Found, find_face
-from .toon_from_svg_pieces import make_pieces
+from .toon_from_svg_pieces import PAPER, make_pieces
 from .toon_from_svg_polygons import make_polygons
 from .toon_from_svg_rig import Rig, make_rig
 
 TOLERANCE = 0.25
 """How far outlines may depart from those of the drawing, in drawing units."""
-
-PAPER: Paint = (0.91, 0.933, 0.957, 1.0)
-"""Behind a drawing without a background."""
 
 
 @dataclass(frozen=True, eq=False)

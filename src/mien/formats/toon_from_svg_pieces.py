@@ -16,6 +16,9 @@ from .svg_reader_paints import Paint
 SMALLEST, LARGEST, USUAL = 200.0, 2000.0, 400.0
 """A canvas whose longer side is not between the first two is scaled to the third."""
 
+PAPER: Paint = (0.91, 0.933, 0.957, 1.0)
+"""Behind a drawing without a background."""
+
 COVERS = 0.98
 """Share of the canvas that a background covers at least."""
 

@@ -12,7 +12,7 @@ from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette, mix
 from .toon_from_svg_guess import Found, Part
 from .toon_from_svg_lenses import lens_outline
-from .toon_from_svg_pieces import Piece, luminance
+from .toon_from_svg_pieces import PAPER, Box, Piece, contrast, luminance
 from .toon_from_svg_rig import Rig
 
 Entry = dict[str, Any]
@@ -34,6 +34,12 @@ TEETH: Paint = (1.0, 0.99, 0.95, 1.0)
 
 DARK = 0.45
 """Luminance up to which an opening is dark enough to show a tongue and teeth in it."""
+
+SEEN = 0.3
+"""Contrast from which a line is seen well."""
+
+WIDE = 0.6
+"""Share of the width of the face from which a shape in it goes along like the face, not like a feature."""
 
 LONG_FACE = 1.1
 """Height over width from which the chin goes down as the mouth opens; a ball keeps its shape."""
@@ -65,12 +71,6 @@ class _Maker:
         self._ids: set[str] = set()
         self._done: set[str] = set()
         self._face_seen = False
-        self._ink = self._find_ink()
-
-    def _find_ink(self) -> Paint:
-        """The darkest colour of eyes and brows: of lids that no drawing of open eyes shows."""
-        parts = self._found.of("pupil", "lash", "ring", "brow", "arc")
-        return min((part.piece.shape.color for part in parts), key=luminance, default=THROAT)
 
     def entries(self, part: Part) -> Iterator[Entry]:
         """The polygons that a part becomes, with those that belong under and over it."""
@@ -109,7 +109,9 @@ class _Maker:
             return {"body": True} if self._face_seen else {"body": True, "layer": "back"}
         if not self._face_seen:
             return {**BEHIND, "layer": "back"}
-        return dict(FRONT if part.role == "hair" or not face.grown(0.01 * face.width).holds(box) else INNER)
+        if part.role == "hair" or not face.grown(0.01 * face.width).holds(box):
+            return dict(FRONT)
+        return dict(FACE if box.width > WIDE * face.width else INNER)
 
     def _eye(self, part: Part) -> Iterator[Entry]:
         side, role = part.side, part.role
@@ -143,10 +145,19 @@ class _Maker:
         if self._found.of("ring", "lash", side=side):
             return {}
         width = 0.1 * self._rig.eyes[side].lens.box.width
+        ink = self._find_ink(self._rig.eyes[side].lens.box)
         return self._add(
-            f"shut_{side}", "feature", self._palette.add(self._ink, "lash"), feature=f"E{side}", fade=f"E{side}",
+            f"shut_{side}", "feature", self._palette.add(ink, "lash"), feature=f"E{side}", fade=f"E{side}",
             stroke={"feature": f"E{side}"}, width=_brush(width), layer="inner",
         )  # fmt: skip
+
+    def _find_ink(self, eye: Box) -> Paint:
+        """The colour of eyes and brows that is seen best on what lies behind an eye, the darkest of several."""
+        parts = self._found.of("pupil", "white", "brow", "arc")
+        behind = [part for part in self._found.parts if part.role in ("face", "") and not part.piece.stroked]
+        ground = next((part.piece.shape.color for part in reversed(behind) if part.piece.box.holds(eye)), PAPER)
+        colors = sorted((part.piece.shape.color for part in parts), key=luminance)
+        return next((color for color in colors if contrast(color, ground) > SEEN), colors[0])
 
     def _mouth(self, part: Part) -> Iterator[Entry]:
         if "mouth" not in self._done:
@@ -188,7 +199,7 @@ class _Maker:
             stroke = {"feature": "M"}
             yield self._add(
                 "mouth_shut", "feature", self._palette.add(inside, "mouth"), feature="M", stroke=stroke,
-                width=_brush(0.035 * mouth.width), layer="inner",
+                width=_brush(0.05 * mouth.width), layer="inner",
             )  # fmt: skip
 
     def _inside(self) -> Paint:
@@ -205,7 +216,7 @@ class _Maker:
         full = drop + lens.opening
         if not found.of("teeth") and mouth.drawn != "open":
             high = round(lens.opening, 2)
-            low = [[-1, high], [0, round(lens.opening + 0.2 * drop, 2)], [1, high]]
+            low = [[-1, high], [0, round(lens.opening + 0.32 * drop, 2)], [1, high]]
             yield self._add(
                 "teeth", "feature", self._palette.add(TEETH, "teeth"), feature="M", layer="inner", clip="mouth",
                 span=[{"feature": "M", "offset": high},
@@ -216,7 +227,7 @@ class _Maker:
             top = lens.bottom[1] + 0.04 * full if mouth.drawn != "open" else lens.bottom[1] - 0.22 * full
             outline = ellipse(lens.bottom[0], top + ry, rx, ry)
             touch = {"touch": {"feature": "M"}, "offset": round(0.12 * full, 2)}
-            drivers = [{"motor": "MB", "max": {"move": [0, round(0.72 * drop, 2)]}}, {"motor": "TG", "max": touch}]
+            drivers = [{"motor": "MB", "max": {"move": [0, round(0.6 * drop, 2)]}}, {"motor": "TG", "max": touch}]
             if mouth.drawn == "open":
                 drivers[0]["min"] = {"move": [0, round(self._rig.motors["MB"]["min"], 2)]}
             self._rig.motors["TG"] = {}
