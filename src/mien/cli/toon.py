@@ -7,8 +7,12 @@ from typing import Annotated
 
 import typer
 
+from . import toon_svg
+
 app = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
 """The commands about drawn faces."""
+
+app.command("from-svg")(toon_svg.from_svg)
 
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="FILE|-", help="File to write; - is standard output.")]
 
