@@ -138,6 +138,7 @@ class _Walk:
         self._paints = Paints(self._by_id, self._rules, remarks)
         self._points = self._visited = 0
         self._used: list[str] = []
+        self._outlines: dict[tuple[Element, tuple[float, float]], Outline] = {}
 
     def visit(self, element: Element, around: _Place) -> None:
         """Gathers what an element shows."""
@@ -209,10 +210,7 @@ class _Walk:
     def _paint(self, element: Element, place: _Place) -> None:
         if place.style["visibility"] != "visible":
             return
-        outline = read_outline(self._path, element, place.view)
-        self._points += count_points(outline)
-        if self._points > MOST_POINTS:
-            raise too_many_points(self._path, element)
+        outline = self._outline(element, place.view)
         outline = transform(outline, place.affine)
         filled = tuple(contour for contour in outline if len(contour.segments) > 1 or len(contour.segments[0]) > 1)
         if filled and element.name != "line" and (color := self._color(element, place, "fill")):
@@ -224,6 +222,16 @@ class _Walk:
             width = self._length_of(element, place.style["stroke-width"], place.view) * scale_of(place.affine)
             if width > 0.0:
                 self._stroke(element, place, outline, color, width)
+
+    def _outline(self, element: Element, view: tuple[float, float]) -> Outline:
+        """The outline of a shape in its own coordinates, which are read once however often it is used."""
+        key = (element, view)
+        if key not in self._outlines:
+            self._outlines[key] = read_outline(self._path, element, view, MOST_POINTS - self._points)
+        self._points += count_points(self._outlines[key])
+        if self._points > MOST_POINTS:
+            raise too_many_points(self._path, element)
+        return self._outlines[key]
 
     def _stroke(self, element: Element, place: _Place, outline: Outline, color: Paint, width: float) -> None:
         """A stroke; one without length and with round ends is a dot."""

@@ -14,14 +14,12 @@ NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 LONGEST_NUMBER = 100
 LARGEST = 1e9
 
-FLAG = re.compile("[01]")
-GAP = re.compile(r"[\s,]*")
-COMMAND = re.compile("[MmZzLlHhVvCcSsQqTtAa]")
+COMMAND = re.compile("([MmZzLlHhVvCcSsQqTtAa])")
+BETWEEN = " \t\r\n\f,"
+_GAP = rf"[{BETWEEN}]*"
+ARC = re.compile(_GAP.join([f"({NUMBER.pattern})"] * 3 + ["([01])"] * 2 + [f"({NUMBER.pattern})"] * 2))
 
 ARGUMENTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
-FLAGS = (3, 4)
-"""Which arguments of an arc are flags, which may stand without a gap."""
-
 LENGTH = re.compile(rf"({NUMBER.pattern})\s*(px|pt|pc|mm|cm|in|q|em|rem|ex|%)?", re.IGNORECASE)
 
 UNITS = {
@@ -63,7 +61,7 @@ def parse_numbers(text: str) -> list[float]:
         ValueError: there is something else among them.
     """
     rest = NUMBER.sub("", text)
-    if rest.strip(" \t\r\n\f,"):
+    if rest.strip(BETWEEN):
         raise ValueError(f"{text[:40]!r} holds something else than numbers")
     return [_finite(word) for word in NUMBER.findall(text)]
 
@@ -132,7 +130,7 @@ class _PathReader:
     """Where it is in path data: the point reached, where the contour began, the last handle."""
 
     def __init__(self, text: str, most_points: int) -> None:
-        self._text, self._place = text, 0
+        self._text = text
         self._left = most_points
         self._contours: list[Contour] = []
         self._segments: list[tuple[Point, ...]] = []
@@ -142,34 +140,40 @@ class _PathReader:
         self._handle_of = ""
 
     def read(self) -> Outline:
-        self._skip()
-        while self._place < len(self._text):
-            match = COMMAND.match(self._text, self._place)
-            if match is None:
-                raise self._unclear("a command, one of M L H V C S Q T A Z")
-            self._place = match.end()
-            self._skip()
-            self._do(match[0])
+        pieces = COMMAND.split(self._text)
+        if pieces[0].strip():
+            raise self._unclear("a command, one of M L H V C S Q T A Z", pieces[0])
+        # Every command but Z makes a point at least: most of what is too much is refused before it is looked at.
+        if len(pieces) // 2 - pieces.count("Z") - pieces.count("z") > self._left:
+            raise TooManyPointsError
+        for letter, arguments in zip(pieces[1::2], pieces[2::2], strict=True):
+            self._do(letter, arguments)
         self._end(closed=False)
         return tuple(self._contours)
 
-    def _do(self, letter: str) -> None:
+    def _do(self, letter: str, arguments: str) -> None:
         """A command with all sets of numbers that follow it."""
         command, relative = letter.upper(), letter.islower()
+        words = _split_arcs(arguments) if command == "A" else NUMBER.findall(arguments)
+        count = ARGUMENTS[command]
+        odd = len(words) % count if count else len(words)
+        rest = (ARC if command == "A" else NUMBER).sub("", arguments)
+        if odd or (count and not words) or rest.strip(BETWEEN):
+            raise self._unclear(f"{count} numbers for {letter}, or some times as many", letter + arguments)
         if command == "Z":
             if self._start is not None:
                 self._at = self._start
                 self._end(closed=True)
             return
-        while True:
-            numbers = self._numbers(command)
-            if command == "M":
-                self._move(numbers, relative)
-                command = "L"
+        if len(words) // count > self._left:
+            raise TooManyPointsError
+        numbers = [_finite(word) for word in words]
+        for place in range(0, len(numbers), count):
+            given = numbers[place : place + count]
+            if command == "M" and place == 0:
+                self._move(given, relative)
             else:
-                self._draw(command, numbers, relative)
-            if not NUMBER.match(self._text, self._place):
-                return
+                self._draw("L" if command == "M" else command, given, relative)
 
     def _move(self, numbers: list[float], relative: bool) -> None:
         self._end(closed=False)
@@ -226,25 +230,13 @@ class _PathReader:
             self._contours.append(Contour(self._start, tuple(self._segments), closed))
         self._segments, self._start, self._handle = [], None, None
 
-    def _numbers(self, command: str) -> list[float]:
-        numbers = []
-        for place in range(ARGUMENTS[command]):
-            wanted = FLAG if command == "A" and place in FLAGS else NUMBER
-            match = wanted.match(self._text, self._place)
-            if match is None:
-                raise self._unclear(f"{ARGUMENTS[command]} numbers for {command}")
-            numbers.append(_finite(match[0]))
-            self._place = match.end()
-            self._skip()
-        return numbers
+    def _unclear(self, wanted: str, got: str) -> ValueError:
+        return ValueError(f"path data {got.strip()[:30]!r}: want {wanted}")
 
-    def _skip(self) -> None:
-        if match := GAP.match(self._text, self._place):
-            self._place = match.end()
 
-    def _unclear(self, wanted: str) -> ValueError:
-        got = self._text[self._place : self._place + 20] or "its end"
-        return ValueError(f"path data, character {self._place + 1}: want {wanted}, got {got!r}")
+def _split_arcs(text: str) -> list[str]:
+    """Words of arcs, seven each, whose two flags may stand without a gap."""
+    return [word for match in ARC.finditer(text) for word in match.groups()]
 
 
 def _raise_degree(start: Point, handle: Point, end: Point) -> tuple[Point, ...]:

@@ -51,13 +51,14 @@ def too_many_points(path: Path, element: Element) -> LoadError:
     )
 
 
-def read_outline(path: Path, element: Element, view: Size) -> Outline:
+def read_outline(path: Path, element: Element, view: Size, most_points: int) -> Outline:
     """The outline of a shape; of nothing where a side of it is 0.
 
     Args:
         path: the file.
         element: one of ``SHAPES``.
         view: width and height that percentages are of.
+        most_points: how many it may have.
 
     Raises:
         LoadError: an attribute cannot be understood, or there are too many points.
@@ -69,11 +70,11 @@ def read_outline(path: Path, element: Element, view: Size) -> Outline:
         return read_attribute(path, element, name, lambda text: parse_length(text, whole), otherwise)
 
     def points(text: str) -> list[tuple[float, float]]:
-        return parse_points(text, MOST_POINTS)
+        return parse_points(text, most_points)
 
     match element.name:
         case "path":
-            return read_attribute(path, element, "d", lambda text: parse_path(text, MOST_POINTS), "")
+            return read_attribute(path, element, "d", lambda text: parse_path(text, most_points), "")
         case "rect":
             width, height = length("width", wide), length("height", high)
             rx, ry = (_radius(element, name, length, whole) for name, whole in (("rx", wide), ("ry", high)))

@@ -10,7 +10,7 @@ from functools import cache
 from importlib import resources
 
 from .svg_reader import SvgDrawing, SvgShape
-from .svg_reader_outlines import Affine, Contour, Outline, Point, flatten, thin, transform
+from .svg_reader_outlines import Affine, Contour, Point, flatten, thin, transform
 from .svg_reader_paints import Paint
 
 SMALLEST, LARGEST, USUAL = 200.0, 2000.0, 400.0
@@ -211,11 +211,6 @@ def _corners(contour: Contour) -> Iterator[Point]:
     yield contour.start
     for segment in contour.segments:
         yield from segment
-
-
-def outline_box(outline: Outline, tolerance: float) -> Box:
-    """The box around an outline."""
-    return box_of(point for contour in outline for point in flatten(contour, tolerance))
 
 
 @cache
