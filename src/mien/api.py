@@ -46,10 +46,12 @@ KERNELS = (
     "mien.formats.palette",
     "mien.formats.yuv",
     "mien.render.bands",
+    "mien.render.filling",
     "mien.render.lighting",
     "mien.render.placing",
     "mien.render.refining",
     "mien.render.spans",
+    "mien.render.sweeping",
 )
 """Modules with compiled code."""
 

@@ -12,13 +12,13 @@ import hashlib
 import sys
 from dataclasses import replace
 import numpy as np
-from mien.core import Cue, Scene, Sound
+from mien.core import Cue, Drawing, Path, Region, Scene, Sound
 from mien.faces import load_face
 from mien.faces.head.head import Head
 from mien.faces.head.measured import archive
 from mien.faces.head.residual import Residual
 from mien.perform import perform
-from mien.render import draw
+from mien.render import draw, draw_drawing
 from mien.speech import Speech
 from mien.timeline import json_text
 
@@ -49,6 +49,10 @@ show("front", draw(head, pose, Scene(size_px=(160, 90)), threads=threads))
 show("side", draw(head, pose, replace(plain, shading="smooth+").seen("side"), threads=threads))
 show("polygons", draw(head, pose, replace(plain, shading="polygon", subdivide=0), threads=threads))
 show("lines", draw(head, pose, replace(plain, shading="wire", subdivide=1), threads=threads))
+ways = np.arange(800).reshape(20, 20, 2) * 7919 % 997 / 10.0
+region = Region(tuple(ways[18:]))
+paths = [Path("p", tuple(ways[k:k + 2]), (0.01 * k, 0.5, 0.9, 0.8), "nonzero", outside=(region,)) for k in range(18)]
+show("drawing", draw_drawing(Drawing((100.0, 80.0), tuple(paths)), plain, threads=threads))
 show("clear", draw(someone, someone.neutral, replace(plain, background=((0.1, 0.2, 0.3, 0.4),) * 2), threads=threads))
 """
 
@@ -69,7 +73,7 @@ def digests(threads, **environment):
 def test_the_processor_and_the_number_of_threads_decide_no_bit(tmp_path):
     features = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
     here = digests(1)
-    assert len(here) == 10
+    assert len(here) == 11
     others = {
         "a processor of another kind": (3, {"NUMBA_CPU_NAME": "generic", "NUMBA_CACHE_DIR": str(tmp_path)}),
         "NumPy without its fast paths": (2, {"NPY_DISABLE_CPU_FEATURES": features, "OPENBLAS_CORETYPE": "Prescott"}),

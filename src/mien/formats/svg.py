@@ -16,8 +16,9 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mien.core import Drawing, Path, Scene
+from mien.core import Drawing, Path, Region, Scene
 from mien.core.drawing import Rgba
+from mien.render.outlines import find_fillings, place_canvas
 from mien.render.pixels import to_srgb
 from mien.render.wire import INK, LINE_SHARE
 
@@ -35,6 +36,10 @@ SEAM_SHARE = 1.0 / 1000.0
 
 SEAM_OF_THICKNESS = 0.45
 """The same as a share of the thickness of thin polygons: a lash must not look like two."""
+
+
+OVERLAP_PX = 2
+"""Width of the line around what fills a hole, half of it under what has the hole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,41 +90,106 @@ class VectorPicture:
             yield f"<desc>{escape('; '.join(f'{key}: {value}' for key, value in self.notes.items()))}</desc>"
 
     def _paths(self) -> Iterator[str]:
-        """Paths in canvas units become pixels: the canvas is centred, as large as the picture's size allows."""
         width, height = self.scene.size_px
-        scale = min(width / self.drawing.size[0], height / self.drawing.size[1])
-        left = (width - scale * self.drawing.size[0]) / 2.0
-        bottom = (height + scale * self.drawing.size[1]) / 2.0
-        decimals = max(0, math.ceil(math.log10(STEPS / max(width, height))))
+        canvas = _Canvas(self.scene.size_px, *place_canvas(self.drawing, self.scene.size_px))
         ink = self.polygons and self.scene.shading == "wire"
         line = min(width, height) * (LINE_SHARE if ink else SEAM_SHARE)
+        body = list(self._groups(canvas, line if self.polygons and not ink else 0.0))
+        if canvas.definitions:
+            yield f"<defs>{''.join(canvas.definitions.values())}</defs>"
         yield (
             f'<g fill-rule="evenodd" stroke-width="{line:.4g}" stroke-linejoin="round"'
             + (f' stroke="{_hex(INK)}">' if ink else ">")
         )
-        for name, paths in groupby(self.drawing.paths, lambda path: path.name):
-            yield f"<g class={quoteattr(name)}>"
-            for path in paths:
-                contours = [
-                    np.stack([left + contour[:, 0] * scale, bottom - contour[:, 1] * scale], axis=1)
-                    for contour in path.contours
-                ]
-                yield _path(path, contours, decimals, line if self.polygons and not ink else 0.0)
-            yield "</g>"
+        yield from body
         yield "</g>"
 
+    def _groups(self, canvas: _Canvas, seam: float) -> Iterator[str]:
+        """The paths of a name together, and among them those that are cut alike."""
+        paths = self.drawing.paths
+        owners = {before: paths[later] for before, later in find_fillings(self.drawing)}
+        for name, numbers in groupby(range(len(paths)), lambda number: paths[number].name):
+            yield f"<g class={quoteattr(name)}>"
+            for cuts, alike in groupby(numbers, lambda number: canvas.cuts(paths[number])):
+                yield from (f"<g {cut}>" for cut in cuts)
+                for number in alike:
+                    path, data = paths[number], canvas.data(paths[number])
+                    color = f'"{_hex(path.color[:3])}"'
+                    rule = ' fill-rule="nonzero"' if path.rule == "nonzero" else ""
+                    line = _seam(path, canvas.scale, seam, color) if seam else ""
+                    yield f'<path fill={color}{_opacity("fill", path.color[3])}{rule}{line} d="{data}"/>'
+                    if number in owners:
+                        # Where the hole that it fills ends, both cover their part of a pixel, and nothing may shine
+                        # through.
+                        around = (
+                            f'fill="none" stroke={color}{_opacity("stroke", path.color[3])} stroke-width="{OVERLAP_PX}"'
+                        )
+                        yield f'<path {canvas.clip(owners[number])} {around} d="{data}"/>'
+                yield from ("</g>" for _ in cuts)
+            yield "</g>"
 
-def _path(path: Path, contours: list[NDArray[np.float64]], decimals: int, seam: float) -> str:
-    outlines = [
-        "M" + " ".join(format_number(value, decimals) for value in contour.ravel().tolist()) + "z"
-        for contour in contours
-    ]
-    color = _hex(path.color[:3])
-    stroke = ""
-    if seam:
-        own = SEAM_OF_THICKNESS * _thickness(contours[0])
-        stroke = f' stroke="{color}"' + (f' stroke-width="{own:.2g}"' if own < seam else "")
-    return f'<path fill="{color}"{_opacity("fill", path.color[3])}{stroke} d="{"".join(outlines)}"/>'
+
+@dataclass(frozen=True)
+class _Canvas:
+    """Where a drawing lies in a picture, and what of it cuts paths: each outline is defined once.
+
+    Attributes:
+        size_px: of the picture.
+        scale, left, bottom: pixels a unit, and where the origin lies.
+        definitions: clips and masks by name.
+    """
+
+    size_px: tuple[int, int]
+    scale: float
+    left: float
+    bottom: float
+    definitions: dict[str, str] = field(default_factory=dict)
+
+    def data(self, outline: Path | Region) -> str:
+        """The contours of an outline, in pixels, as a path has them."""
+        decimals = max(0, math.ceil(math.log10(STEPS / max(self.size_px))))
+        places = [
+            np.stack([self.left + contour[:, 0] * self.scale, self.bottom - contour[:, 1] * self.scale], axis=1)
+            for contour in outline.contours
+            if len(contour)
+        ]
+        return "".join(
+            "M" + " ".join(format_number(value, decimals) for value in contour.ravel().tolist()) + "z"
+            for contour in places
+        )
+
+    def cuts(self, path: Path) -> tuple[str, ...]:
+        """Attributes of groups, one in the other, that cut a path."""
+        return (*map(self.clip, path.inside), *map(self.mask, path.outside))
+
+    def clip(self, outline: Path | Region) -> str:
+        """The attribute by which what is inside of an outline is left."""
+        data = self.data(outline)
+        name = f"clip-{_sign(outline.rule, data)}"
+        self.definitions[name] = f'<clipPath id="{name}"><path clip-rule="{outline.rule}" d="{data}"/></clipPath>'
+        return f'clip-path="url(#{name})"'
+
+    def mask(self, region: Region) -> str:
+        """The attribute by which what is outside of a region is left: a clip has no way to say so of every rule."""
+        data, (width, height) = self.data(region), self.size_px
+        name = f"mask-{_sign(region.rule, data)}"
+        whole = f'x="0" y="0" width="{width}" height="{height}"'
+        self.definitions[name] = (
+            f'<mask id="{name}" maskUnits="userSpaceOnUse" {whole}><rect {whole} fill="#fff"/>'
+            f'<path fill="#000" fill-rule="{region.rule}" d="{data}"/></mask>'
+        )
+        return f'mask="url(#{name})"'
+
+
+def _sign(*texts: str) -> str:
+    """Eight letters that differ where texts do: pictures in one page must not share a name for different things."""
+    return f"{zlib.crc32(''.join(texts).encode()):08x}"
+
+
+def _seam(path: Path, scale: float, seam: float, color: str) -> str:
+    """Attributes of the line around a polygon in its own colour."""
+    own = SEAM_OF_THICKNESS * _thickness(path.contours[0] * scale)
+    return f" stroke={color}" + (f' stroke-width="{own:.2g}"' if own < seam else "")
 
 
 def _thickness(outline: NDArray[np.float64]) -> float:
@@ -143,8 +213,7 @@ def _background(ends: tuple[Rgba, Rgba]) -> Iterator[str]:
     for up in np.linspace(0.0, 1.0, STOPS):
         color = bottom + (top - bottom) * up
         stops.append(f'<stop offset="{up:.4f}" stop-color="{_hex(color[:3])}"{_opacity("stop", float(color[3]))}/>')
-    # Pictures that are put into one page must not share a name for different backgrounds.
-    name = f"background-{zlib.crc32(''.join(stops).encode()):08x}"
+    name = f"background-{_sign(*stops)}"
     yield f'<defs><linearGradient id="{name}" x1="0" y1="1" x2="0" y2="0">'
     yield from stops
     yield "</linearGradient></defs>"

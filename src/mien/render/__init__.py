@@ -3,7 +3,6 @@
 Nothing here imports Numba before the first picture is drawn.
 """
 
-from .drawing import draw_drawing
-from .renderer import Renderer, draw, draw_mesh
+from .renderer import Renderer, draw, draw_drawing, draw_mesh
 
 __all__ = ["Renderer", "draw", "draw_drawing", "draw_mesh"]

@@ -12,51 +12,11 @@ import numpy as np
 
 from mien.compiling import kernel
 
+from .encoding import encode_row, fill
 from .per_pixel import light_sample
 from .pixels import OFFSETS, ONE
 from .smoothing import average, draw_samples, list_marks, mark_edges, mark_kinks
 from .spans import END_COLUMN, FIRST_COLUMN, draw_triangle
-
-
-# Loops where a slice could be assigned: Numba takes ten times as long to compile an assignment to a slice.
-@kernel()
-def _fill(values, value):
-    for x in range(len(values)):
-        values[x] = value
-
-
-@kernel()
-def _encode(samples, codes, out):
-    """Samples with full coverage as sRGB; ``codes`` (ONE + 1,) has the code of every linear value."""
-    low = np.uint64(0xFFFF)
-    for x in range(np.uint64(len(out))):
-        sample = samples[x]
-        red, green = codes[sample & low], codes[(sample >> np.uint64(16)) & low]
-        blue = codes[(sample >> np.uint64(32)) & low]
-        packed = np.uint32(red) | (np.uint32(green) << np.uint32(8)) | (np.uint32(blue) << np.uint32(16))
-        out[x] = packed | np.uint32(255 << 24)
-
-
-@kernel()
-def _make_straight(samples):
-    """Divide colours by their coverage where it is neither nothing nor full."""
-    low = np.uint64(0xFFFF)
-    one = np.uint64(ONE)
-    for x in range(len(samples)):
-        sample = samples[x]
-        cover = sample >> np.uint64(48)
-        if cover > np.uint64(0) and cover < one:
-            red = min((sample & low) * one // cover, one)
-            green = min(((sample >> np.uint64(16)) & low) * one // cover, one)
-            blue = min(((sample >> np.uint64(32)) & low) * one // cover, one)
-            samples[x] = red | (green << np.uint64(16)) | (blue << np.uint64(32)) | (cover << np.uint64(48))
-
-
-@kernel()
-def _encode_cover(samples, out):
-    for x in range(len(out)):
-        alpha = ((samples[x] >> np.uint64(48)) * np.uint64(255) + np.uint64(ONE // 2)) >> np.uint64(14)
-        out[x] = (out[x] & np.uint32(0xFFFFFF)) | np.uint32(alpha << np.uint64(24))
 
 
 @kernel()
@@ -140,14 +100,14 @@ def draw_bands(
         first, last = max(first, 0), min(last, width)
         if first >= last:
             for row in range(top, end):
-                _fill(out[row], plain[row])
+                fill(out[row], plain[row])
             continue
         first_row, end_row = max(top - apron, 0), min(end + apron, height)
         for group in range(len(color)):
-            _fill(depth[: (end_row - first_row) * width], np.float32(0.0))
+            fill(depth[: (end_row - first_row) * width], np.float32(0.0))
             for row in range(first_row, end_row):
                 place = (row - first_row) * width
-                _fill(color[group, place + first : place + last], behind[row])
+                fill(color[group, place + first : place + last], behind[row])
             for m in range(begin, stop):
                 draw_triangle(
                     shapes, frames, planes, 9 * group, members[m], first_row, end_row, width, limit[group], depth,
@@ -166,12 +126,7 @@ def draw_bands(
             )  # fmt: skip
         for row in range(top, end):
             place = (row - first_row) * width
-            _fill(out[row, :first], plain[row])
+            fill(out[row, :first], plain[row])
             samples = color[0, place + first : place + last]
-            if behind[row] >> np.uint64(48) == np.uint64(ONE):
-                _encode(samples, codes, out[row, first:last])
-            else:
-                _make_straight(samples)
-                _encode(samples, codes, out[row, first:last])
-                _encode_cover(samples, out[row, first:last])
-            _fill(out[row, last:], plain[row])
+            encode_row(samples, codes, behind[row] >> np.uint64(48) == np.uint64(ONE), out[row, first:last])
+            fill(out[row, last:], plain[row])

@@ -15,9 +15,10 @@ from mien.core import Drawing, Face, Mesh, MienError, Pose, RangeError, Scene, U
 from mien.core.sparse import SparseMatrix
 from mien.core.subdivision import apply_to_each
 
-from . import bands, lighting, placing, reference, refining, spans
+from . import bands, filling, lighting, placing, reference, refining, spans
 from .camera import FAR_OUT, NEAR_M, SUBPIXELS, Camera
-from .drawing import draw_drawing
+from .drawing import draw_plainly
+from .outlines import place_outlines
 from .pixels import ONE, WHOLE, Samples, background, encode, srgb_codes, to_samples, to_words
 from .plan import Plan
 from .shade import Shades, own_normals
@@ -87,7 +88,7 @@ class Renderer:
         pose = fill_rows(face, pose, self.scene)
         shape = (face if self.scene.subdivide else face.unsubdivided).shape(pose)
         if isinstance(shape, Drawing):
-            return draw_drawing(shape, self.scene)
+            return self.draw_drawing(shape)
         return self.draw_mesh(self.refine(shape))
 
     def refine(self, mesh: Mesh) -> Mesh:
@@ -109,6 +110,22 @@ class Renderer:
             return light_surface(groups, depth, offset, self._camera, self.scene) if several else groups[0]
 
         return encode(reference.rasterise(triangles, self._camera, self._behind, light_samples, self.samples == 4))
+
+    def draw_drawing(self, drawing: Drawing) -> Picture:
+        """(H, W, 4) sRGB picture, straight alpha: the canvas, centred, as large as the picture's size allows."""
+        if self._rasteriser == "reference":
+            return draw_plainly(drawing, self.scene)
+        width, height = self.scene.size_px
+        outlines = place_outlines(drawing, self.scene.size_px)
+        behind = to_words(to_samples(background(self.scene, drawing.background)))
+        picture = np.empty((height, width), dtype=np.uint32)
+        frame = (*vars(outlines).values(), behind, srgb_codes())
+        sizes = (width, len(outlines.edges), len(outlines.masks))
+        self._share(
+            filling.fill_bands,
+            [(k, self.threads, BAND_ROWS, *frame, *fill_buffers(*sizes), picture) for k in range(self.threads)],
+        )
+        return picture.view(np.uint8).reshape(height, width, 4)
 
     def _light(
         self, mesh: Mesh, points: NDArray[np.float64], plan: Plan, scene: Scene, triangles: NDArray[np.int64]
@@ -240,6 +257,23 @@ def _buffers(width: int, groups: int, smooth: bool) -> tuple[NDArray[np.generic]
     )
 
 
+def fill_buffers(width: int, edges: int, masks: int) -> tuple[NDArray[np.generic], ...]:
+    """What a thread needs for itself to fill paths, as ``filling.fill_bands`` takes it."""
+    return (
+        np.empty((BAND_ROWS, width), dtype=np.uint64),
+        np.zeros(width + 2),
+        np.empty((width // 2 + 2, 2), dtype=np.int32),
+        np.empty(BAND_ROWS, dtype=np.int32),
+        np.empty(edges, dtype=np.int32),
+        np.empty(edges, dtype=np.int32),
+        np.empty((edges, 2)),
+        np.empty(edges, dtype=np.int32),
+        np.empty(width, dtype=np.uint16),
+        np.empty((masks, BAND_ROWS, width), dtype=np.uint16),
+        np.empty(masks, dtype=np.uint8),
+    )
+
+
 def _light_settings(scene: Scene, camera: Camera) -> tuple[NDArray[np.float64], ...]:
     """Viewer, lamps and ambient light as ``per_pixel.light_sample`` takes them."""
     axes = (*camera.right, *camera.up, *camera.forward)
@@ -264,3 +298,9 @@ def draw_mesh(
     """(H, W, 4) sRGB picture, straight alpha, of a mesh as it is; the reference rasteriser is slow and equal."""
     with Renderer(scene, threads, samples=samples, rasteriser=rasteriser) as renderer:
         return renderer.draw_mesh(mesh)
+
+
+def draw_drawing(drawing: Drawing, scene: Scene, *, threads: int = 1, rasteriser: Rasteriser = "compiled") -> Picture:
+    """(H, W, 4) sRGB picture, straight alpha, of a drawing as it is; the reference is slow and less exact."""
+    with Renderer(scene, threads, rasteriser=rasteriser) as renderer:
+        return renderer.draw_drawing(drawing)

@@ -9,10 +9,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mien.core import Drawing, MienError, Path, Scene
+from mien.core import Drawing, MienError, Path, Region, Scene
 from mien.formats.notes import notes
 from mien.formats.numbers import format_number
-from mien.formats.svg import STOPS, VectorPicture
+from mien.formats.svg import OVERLAP_PX, STOPS, VectorPicture
 
 SPACE = "{http://www.w3.org/2000/svg}"
 WHITE, CLEAR = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0)
@@ -94,6 +94,50 @@ def test_a_background_runs_evenly_in_linear_light_from_below() -> None:
     assert (stops[0], stops[STOPS // 2], stops[-1]) == ("#000000", "#bcbcbc", "#ffffff")
     (gradient,) = root.iter(f"{SPACE}linearGradient")
     assert (gradient.attrib["y1"], gradient.attrib["y2"]) == ("1", "0")
+
+
+RED = (1.0, 0.0, 0.0, 1.0)
+
+
+def test_a_path_says_its_rule_where_it_is_not_the_usual_one() -> None:
+    both = Drawing((4.0, 4.0), (Path("a", (OUTER,), RED), Path("b", (OUTER,), RED, "nonzero")))
+    assert [path.attrib.get("fill-rule") for path in read(VectorPicture(both, scene())).iter(f"{SPACE}path")] == [
+        None,
+        "nonzero",
+    ]
+
+
+def test_a_region_that_paths_share_is_defined_once_and_groups_are_cut_by_it() -> None:
+    eye, lid = Region((OUTER / 2,), "nonzero"), Region((OUTER / 2 + 1,))
+    paths = [Path("eye", (OUTER / k,), RED, inside=(eye,), outside=(lid,)) for k in (1, 2)]
+    root = read(VectorPicture(Drawing((4.0, 4.0), (*paths, Path("brow", (OUTER,), RED, outside=(lid,)))), scene()))
+    (clip,), (mask,) = root.iter(f"{SPACE}clipPath"), root.iter(f"{SPACE}mask")
+    assert clip[0].attrib["clip-rule"] == "nonzero"
+    assert outlines(clip[0]) == [[[0, 100], [50, 100], [50, 50], [0, 50]]]
+    assert [part.attrib["fill"] for part in mask] == ["#fff", "#000"]
+    assert mask[1].attrib["fill-rule"] == "evenodd"
+    (cut,) = (group for group in root.iter(f"{SPACE}g") if "clip-path" in group.attrib)
+    assert cut.attrib["clip-path"] == f"url(#{clip.attrib['id']})"
+    assert cut[0].attrib == {"mask": f"url(#{mask.attrib['id']})"}
+    assert len(list(cut[0].iter(f"{SPACE}path"))) == 2
+    assert sum("mask" in group.attrib for group in root.iter(f"{SPACE}g")) == 2
+
+
+def test_what_fills_a_hole_reaches_under_what_has_it() -> None:
+    hole = (OUTER / 2 + 1,)
+    paths = (Path("hole", hole, RED), Path("face", (OUTER,), WHITE, outside=(Region(hole),)))
+    root = read(VectorPicture(Drawing((4.0, 4.0), paths), scene()))
+    (line,) = (path for path in root.iter(f"{SPACE}path") if path.attrib.get("fill") == "none")
+    assert line.attrib["stroke"] == "#ff0000"
+    assert float(line.attrib["stroke-width"]) == OVERLAP_PX
+    (clip,) = root.iter(f"{SPACE}clipPath")
+    assert line.attrib["clip-path"] == f"url(#{clip.attrib['id']})"
+    assert outlines(clip[0])[0] == [[0, 100], [100, 100], [100, 0], [0, 0]]
+
+
+def test_empty_outlines_and_regions_are_valid() -> None:
+    nothing = Drawing((4.0, 4.0), (Path("a", (), RED, inside=(Region(()),)), Path("b", (np.zeros((0, 2)),), RED)))
+    assert [path.attrib["d"] for path in read(VectorPicture(nothing, scene())).iter(f"{SPACE}path")] == ["", "", ""]
 
 
 def test_a_drawing_brings_its_own_background() -> None:
