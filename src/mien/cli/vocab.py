@@ -85,6 +85,7 @@ def _show_names(name: str, as_json: bool) -> None:
                 "aliases": aliases.get(row.name, []),
                 "low": row.low,
                 "high": row.high,
+                "default": row.default,
                 "unit": row.unit,
                 "group": row.group,
                 "doc": row.doc,
@@ -95,9 +96,17 @@ def _show_names(name: str, as_json: bool) -> None:
         print_json({"vocabulary": name, "names": rows})
         return
     print_table(
-        ("name", "also", "from", "to", "what is seen"),
-        [(row.name, " ".join(aliases.get(row.name, [])), f"{row.low:g}", f"{row.high:g}", row.doc) for row in table],
-        numbers=(2, 3),
+        ("name", "also", "from", "to", "rest", "what is seen"),
+        [
+            (
+                row.name,
+                " ".join(aliases.get(row.name, [])),
+                *(f"{x:g}" for x in (row.low, row.high, row.default)),
+                row.doc,
+            )
+            for row in table
+        ],
+        numbers=(2, 3, 4),
     )
 
 

@@ -13,7 +13,7 @@ from mien.core.mesh import Points
 
 from .fields import angle_deg, displacement, longest
 from .loading import load_remap, next_step
-from .remap import FITS, whole
+from .remap import FITS, whole, worst
 from .vocabulary import vocabulary
 
 Matrix = NDArray[np.float64]
@@ -79,6 +79,8 @@ def fits_on(name: str, face: Face) -> dict[str, str]:
     """How well a face plays each name of a vocabulary: ``exact``, ``near`` or ``stand-in``; without those that it
     plays nothing for.
 
+    On the way by another vocabulary, what is partly stood in for is played nearly.
+
     Raises:
         UnknownNameError: there is no such vocabulary.
         MienError: there is no table for the vocabulary.
@@ -87,12 +89,14 @@ def fits_on(name: str, face: Face) -> dict[str, str]:
     if step == face.family:
         return dict(load_remap(name, step).on(face.parameters).fits)
     remap, below = load_remap(name, step), fits_on(step, face)
-    fits: dict[str, str] = {}
+    reached: dict[str, set[str]] = {}
     for link in remap.links:
-        if link.parameter in below:
-            reached = (link.fit, below[link.parameter], fits.get(link.name, FITS[0]))
-            fits[link.name] = max(reached, key=FITS.index)
-    return fits
+        reached.setdefault(link.name, set()).add(below.get(link.parameter, MISSING) if link.gain else FITS[0])
+    return {
+        each: worst(fit, found.pop() if len(found) == 1 else FITS[1])
+        for each, fit in remap.fits.items()
+        if (found := reached[each]) != {MISSING}
+    }
 
 
 def _stand_ins(name: str, face: Face) -> dict[str, dict[str, float]]:

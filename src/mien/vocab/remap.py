@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import TypeVar
 
@@ -56,12 +56,12 @@ class Remap:
     Attributes:
         title: ``vocabulary.family``, for messages.
         links: in the order of the table.
-        lacking: names that have lost a link because a face has not all parameters.
+        at_best: fits that names cannot be better than, since a face has not all parameters.
     """
 
     title: str
     links: tuple[Link, ...]
-    lacking: frozenset[str] = frozenset()
+    at_best: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def from_names(self) -> tuple[str, ...]:
@@ -82,13 +82,13 @@ class Remap:
     def fits(self) -> Mapping[str, str]:
         """How well each name of the vocabulary is played: as its worst link is.
 
-        What is left of a name that has lost a link stands in for it.
+        The first link of a name is what it is about: what is left of a name that has lost it stands in for it. One
+        that has lost another link is played nearly.
         """
         fits: dict[str, str] = {}
         for link in self.links:
             name = whole(link.name)
-            fit = FITS[-1] if name in self.lacking else link.fit
-            fits[name] = max(fits.get(name, fit), fit, key=FITS.index)
+            fits[name] = worst(fits.get(name, FITS[0]), self.at_best.get(name, FITS[0]), link.fit)
         return fits
 
     def on(self, table: ParameterTable) -> Remap:
@@ -215,12 +215,22 @@ def whole(name: str) -> str:
     return name[:-1] if name.endswith(HALVES) else name
 
 
+def worst(*fits: str) -> str:
+    """The worst of some fits."""
+    return max(fits, key=FITS.index)
+
+
 @lru_cache(maxsize=64)
 def _on(remap: Remap, table: ParameterTable) -> Remap:
     known = [link for link in remap.links if not (link.unless and link.unless in table)]
+    first = {whole(link.name): link for link in reversed(remap.links)}
+    at_best: dict[str, str] = {}
+    for link in known:
+        if link.parameter not in table:
+            name = whole(link.name)
+            at_best[name] = worst(at_best.get(name, FITS[1]), FITS[-1] if link is first[name] else FITS[1])
     links = tuple(_counted(link, table) for link in known if link.parameter in table)
-    lacking = frozenset(whole(link.name) for link in known if link.parameter not in table)
-    return Remap(remap.title, links, lacking)
+    return Remap(remap.title, links, at_best)
 
 
 def _counted(link: Link, table: ParameterTable) -> Link:

@@ -125,7 +125,9 @@ def test_something_else_is_played_unless_a_face_has_the_parameter(on_all: Remap,
     assert on_few.apply({"raise": 1.0}) == {"brow": -0.2}
 
 
-def test_a_name_fits_as_its_worst_link_and_what_is_left_of_it_stands_in(on_all: Remap, on_few: Remap) -> None:
+def test_a_name_fits_as_its_worst_link_and_what_is_left_without_the_first_stands_in(
+    on_all: Remap, on_few: Remap
+) -> None:
     assert on_all.fits == {
         "open": "exact",
         "close": "exact",
