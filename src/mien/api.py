@@ -138,7 +138,8 @@ def make_pose(
     pose = Pose.neutral(face.parameters) if seed is None else random_person(face, seed)
     pose = mix_people(pose, face, [(load_face(address), share) for address, share in (mix or {}).items()])
     pose = exaggeration.caricature(pose, caricature)
-    for name, amount in _amounts(presets).items():
+    amounts = presets if isinstance(presets, Mapping) else dict.fromkeys(presets, 1.0)
+    for name, amount in amounts.items():
         if name not in face.presets:
             raise UnknownNameError(f"preset of {face.name!r}", name, face.presets)
         if not 0.0 <= amount <= 1.0:
@@ -147,10 +148,6 @@ def make_pose(
     if units:
         pose = pose_from("facs", units, face, pose)
     return set_values(values or {}, face, pose)
-
-
-def _amounts(presets: Mapping[str, float] | Iterable[str]) -> Mapping[str, float]:
-    return presets if isinstance(presets, Mapping) else dict.fromkeys(presets, 1.0)
 
 
 def pose_from(
