@@ -96,6 +96,22 @@ def test_the_browser_shows_a_drawing_with_rules_clips_and_holes_as_the_filler_do
         assert green[around].max() <= 3
 
 
+@pytest.mark.parametrize("face", ["toon:gus", "toon:olav"])
+def test_the_browser_shows_a_drawn_face_as_the_filler_does(page, tmp_path, face):
+    scene = mien.Scene(size_px=(SIDE, SIDE))
+    mien.draw_paths(face, {}, scene).write(tmp_path / "face.svg")
+    page.goto((tmp_path / "face.svg").as_uri())
+    shown = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")).astype(int)
+    difference = np.abs(shown - mien.draw(face, {}, scene).pixels[:, :, :3]).max(axis=2)
+    # Edges, and what is half transparent, are blended in sRGB there.
+    assert np.median(difference) <= 1
+    assert (difference > 40).mean() < 0.005
+    patches = difference > 40
+    for axis in (0, 1):
+        patches = patches & np.roll(patches, 1, axis) & np.roll(patches, -1, axis)
+    assert not patches.any()
+
+
 def test_no_light_background_shines_through_a_dark_head(page, tmp_path):
     scene = mien.Scene(size_px=(SIDE, SIDE), subdivide=1, background=((1.0, 1.0, 1.0, 1.0),) * 2)
     dark = {f"hair.color.{channel}": 0.0 for channel in ("red", "green", "blue")}

@@ -61,6 +61,7 @@ def render(
     mien render head --sheet facs --size 192 -o action_units.png
     """
     from mien import api
+    from mien.core import Drawing
     from mien.core import exaggerate as exaggerate_pose
     from mien.formats.atomic import check_file
 
@@ -93,6 +94,13 @@ def render(
         pixels = {"--size": size, "--background": background, "--shading": shading, "--threads": threads}
         if unused := [option for option, given in pixels.items() if given is not None]:
             stages.say(f"{out}: a mesh has no pixels, so nothing is done about {', '.join(unused)}")
+    elif sheet is None and isinstance(subject.shape(subject.neutral), Drawing):
+        space = {
+            "--view": view, "--from": position, "--at": at, "--fov": fov, "--shading": shading,
+            "--subdivide": subdivide, "--light": light, "--diffuse": diffuse, "--cosine-power": cosine_power,
+        }  # fmt: skip
+        if unused := [option for option, given in space.items() if given is not None]:
+            stages.say(f"{face}: is a drawing, which no camera or light changes: no outline obeys {', '.join(unused)}")
     what = _write(out, kind, sheet, subject, pose, scene, threads, stages)
     stages.say(f"{out}: {what}; done in {format_time(stages.elapsed_s)}")
 

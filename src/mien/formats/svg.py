@@ -107,7 +107,9 @@ class VectorPicture:
     def _groups(self, canvas: _Canvas, seam: float) -> Iterator[str]:
         """The paths of a name together, and among them those that are cut alike."""
         paths = self.drawing.paths
-        owners = {before: paths[later] for before, later in find_fillings(self.drawing)}
+        owners: dict[int, list[Path]] = {}
+        for before, later in find_fillings(self.drawing):
+            owners.setdefault(before, []).append(paths[later])
         for name, numbers in groupby(range(len(paths)), lambda number: paths[number].name):
             yield f"<g class={quoteattr(name)}>"
             for cuts, alike in groupby(numbers, lambda number: canvas.cuts(paths[number])):
@@ -116,15 +118,12 @@ class VectorPicture:
                     path, data = paths[number], canvas.data(paths[number])
                     color = f'"{_hex(path.color[:3])}"'
                     rule = ' fill-rule="nonzero"' if path.rule == "nonzero" else ""
-                    line = _seam(path, canvas.scale, seam, color) if seam else ""
-                    yield f'<path fill={color}{_opacity("fill", path.color[3])}{rule}{line} d="{data}"/>'
-                    if number in owners:
-                        # Where the hole that it fills ends, both cover their part of a pixel, and nothing may shine
-                        # through.
-                        around = (
-                            f'fill="none" stroke={color}{_opacity("stroke", path.color[3])} stroke-width="{OVERLAP_PX}"'
-                        )
-                        yield f'<path {canvas.clip(owners[number])} {around} d="{data}"/>'
+                    around = _seam(path, canvas.scale, seam, color) if seam else ""
+                    yield f'<path fill={color}{_opacity("fill", path.color[3])}{rule}{around} d="{data}"/>'
+                    for owner in owners.get(number, ()):
+                        # Where the hole that it fills ends both cover their part of a pixel; nothing may shine through.
+                        line = f'stroke={color}{_opacity("stroke", path.color[3])} stroke-width="{OVERLAP_PX}"'
+                        yield f'<path {canvas.clip(owner)} fill="none" {line} d="{data}"/>'
                 yield from ("</g>" for _ in cuts)
             yield "</g>"
 

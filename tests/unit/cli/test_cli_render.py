@@ -98,3 +98,12 @@ def test_what_a_mesh_has_no_use_for_is_said(capsys: pytest.CaptureFixture[str]) 
     assert "nothing is done about --size, --shading" in capsys.readouterr().err
     assert main(["render", "head", "--subdivide", "0", "-o", "a.obj"]) == 0
     assert "nothing is done" not in capsys.readouterr().err
+
+
+def test_what_a_drawing_has_no_use_for_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    for suffix in ("png", "svg"):
+        command = ["render", "toon:olav", "--size", "64", "-o", f"a.{suffix}"]
+        assert main([*command, "--view", "side", "--subdivide", "0", "--shading", "wire"]) == 0
+        assert "no outline obeys --view, --shading, --subdivide\n" in capsys.readouterr().err
+        assert main([*command, "--background", "white"]) == 0
+        assert "no outline obeys" not in capsys.readouterr().err

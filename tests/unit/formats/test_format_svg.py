@@ -125,14 +125,13 @@ def test_a_region_that_paths_share_is_defined_once_and_groups_are_cut_by_it() ->
 
 def test_what_fills_a_hole_reaches_under_what_has_it() -> None:
     hole = (OUTER / 2 + 1,)
-    paths = (Path("hole", hole, RED), Path("face", (OUTER,), WHITE, outside=(Region(hole),)))
-    root = read(VectorPicture(Drawing((4.0, 4.0), paths), scene()))
-    (line,) = (path for path in root.iter(f"{SPACE}path") if path.attrib.get("fill") == "none")
-    assert line.attrib["stroke"] == "#ff0000"
-    assert float(line.attrib["stroke-width"]) == OVERLAP_PX
-    (clip,) = root.iter(f"{SPACE}clipPath")
-    assert line.attrib["clip-path"] == f"url(#{clip.attrib['id']})"
-    assert outlines(clip[0])[0] == [[0, 100], [100, 100], [100, 0], [0, 0]]
+    halves = (Path(f"face{k}", (OUTER * (0.5, 1) + (k, 0),), WHITE, outside=(Region(hole),)) for k in (0, 2))
+    root = read(VectorPicture(Drawing((4.0, 4.0), (Path("hole", hole, RED), *halves)), scene()))
+    lines = [path for path in root.iter(f"{SPACE}path") if path.attrib.get("fill") == "none"]
+    clips = list(root.iter(f"{SPACE}clipPath"))
+    assert [line.attrib["clip-path"] for line in lines] == [f"url(#{clip.attrib['id']})" for clip in clips]
+    assert {(line.attrib["stroke"], float(line.attrib["stroke-width"])) for line in lines} == {("#ff0000", OVERLAP_PX)}
+    assert [outlines(clip[0])[0][0] for clip in clips] == [[0, 100], [50, 100]]
 
 
 def test_empty_outlines_and_regions_are_valid() -> None:
