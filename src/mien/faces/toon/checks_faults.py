@@ -38,6 +38,7 @@ class Fault:
         hint: what to try; empty for what the rule says.
         severity: None for that of the rule.
         line: in the file, from 1, where it is known.
+        who: id of the polygon that it is in, if in one.
     """
 
     rule: str
@@ -48,6 +49,7 @@ class Fault:
     hint: str = ""
     severity: Severity | None = None
     line: int | None = None
+    who: str = ""
 
     @property
     def grave(self) -> bool:
@@ -65,7 +67,8 @@ class Fault:
             f"{word} {value}" for word, value in (("want", self.wanted), ("got", self.got)) if value
         )
         kind = "error" if self.grave else "warning"
-        return f"{kind}: {format_place(self.place) or 'document'}: {self.what}{wanted} — {self.advice}"
+        who = f" ({self.who})" if self.who else ""
+        return f"{kind}: {format_place(self.place) or 'document'}{who}: {self.what}{wanted} — {self.advice}"
 
 
 @cache

@@ -1,0 +1,131 @@
+"""Names in a document that lead to nothing, to several things, or that nothing leads to; what strict mode has not."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from itertools import chain
+from typing import Any
+
+from .checks_faults import Fault, Place
+from .checks_schema import suggest
+from .checks_sheet import Sheet
+from .motors import motors
+from .reader import COLOR, FEATURE_POINTS
+from .schema import Schema, referred, toon_schema
+
+OF_POINT = {point: feature for feature, points in FEATURE_POINTS.items() for point in points}
+
+
+def find_wrong_names(sheet: Sheet) -> Iterator[Fault]:
+    """All faults of names."""
+    yield from _ids(sheet)
+    yield from _colors(sheet)
+    yield from _attachments(sheet)
+    yield from _expressions(sheet)
+    yield from _unused(sheet)
+    if sheet.strict:
+        yield from _extensions(sheet.document, toon_schema(), ())
+
+
+def _ids(sheet: Sheet) -> Iterator[Fault]:
+    first: dict[str, int] = {}
+    for number, name in sheet.ids:
+        if name in first:
+            yield Fault(
+                "repeated id", ("polygons", number, "id"), f"{name!r} is also the id of polygons[{first[name]}]"
+            )
+        first.setdefault(name, number)
+
+
+def _colors(sheet: Sheet) -> Iterator[Fault]:
+    places: list[Place] = [("background",), *(("polygons", number, "fill") for number, _ in sheet.polygons)]
+    known = sheet.members("palette")
+    for place in places:
+        name = sheet.sound(*place)
+        if name is not None and not COLOR.fullmatch(name) and name not in known:
+            yield _unknown("palette", place, "colour", name, known)
+    for variant in sheet.members("palettes"):
+        for name in sheet.members("palettes", variant):
+            if name not in known:
+                yield _unknown("palette", ("palettes", variant, name), "colour", name, known)
+
+
+def _attachments(sheet: Sheet) -> Iterator[Fault]:
+    ids, parts = [name for _, name in sheet.ids], sheet.members("parts")
+    for number, polygon in sheet.polygons:
+        place: Place = ("polygons", number)
+        yield from _named(polygon, place, "feature", "feature", sheet.features)
+        yield from _named(polygon, place, "motor", "motor", sheet.motors)
+        yield from _named(polygon, place, "part", "part", parts)
+        if "with" in polygon and OF_POINT[polygon["with"]] not in sheet.features:
+            points = [point for point, feature in OF_POINT.items() if feature in sheet.features]
+            yield _unknown("attached", (*place, "with"), "control point", polygon["with"], points)
+        clip = polygon.get("clip", ())
+        for name in [clip] if isinstance(clip, str) else clip:
+            if name not in ids:
+                yield _unknown("attached", (*place, "clip"), "polygon", name, ids)
+    for place, driver in sheet.drivers():
+        yield from _named(driver, place, "motor", "motor", sheet.motors)
+    for place, line in sheet.lines():
+        yield from _named(line, place, "feature", "feature", sheet.features)
+        yield from _named(line.get("offset_by", {}), (*place, "offset_by"), "motor", "motor", sheet.motors)
+        for code in line.get("at", ()):
+            yield from _named({code: code}, (*place, "at"), code, "motor", sheet.motors)
+
+
+def _expressions(sheet: Sheet) -> Iterator[Fault]:
+    for name in sheet.members("expressions"):
+        for code, value in (sheet.sound("expressions", name) or {}).items():
+            place: Place = ("expressions", name, code)
+            yield from _named({code: code}, place[:-1], code, "motor", sheet.motors)
+            low, high = _range(sheet, code)
+            if not low <= value <= high:
+                yield Fault("range", place, f"is more than {code} can do", f"from {low:g} to {high:g}", f"{value:g}")
+
+
+def _range(sheet: Sheet, code: str) -> tuple[float, float]:
+    """Lowest and highest value of a motor in an expression."""
+    unit = motors()[code].unit
+    if unit != "deg":
+        return (-1.0 if unit == "signed" else 0.0), 1.0
+    limits = sheet.sound("motors", code) or {}
+    return limits.get("min_deg", -180.0), limits.get("max_deg", 180.0)
+
+
+def _unused(sheet: Sheet) -> Iterator[Fault]:
+    listed = sheet.value("polygons")
+    everyone = [polygon for polygon in listed if isinstance(polygon, dict)] if isinstance(listed, list) else []
+    fills = {str(polygon.get("fill")) for polygon in everyone} | {str(sheet.value("background"))}
+    for key, used in (("palette", fills), ("parts", {str(polygon.get("part")) for polygon in everyone})):
+        for name in sheet.members(key):
+            if name not in used:
+                yield Fault("unseen", (key, name), "is used by no polygon")
+    for number, polygon in sheet.polygons:
+        if polygon.get("opacity") == 0:
+            yield Fault("unseen", ("polygons", number, "opacity"), "nothing of it is seen")
+
+
+def _extensions(value: Any, schema: Schema, place: Place) -> Iterator[Fault]:
+    """Keys that the paper has not, the outermost ones."""
+    if "$ref" in schema:
+        yield from _extensions(value, referred(schema), place)
+    if isinstance(value, dict):
+        for key, member in schema.get("properties", {}).items():
+            if key in value and member.get("x-extension"):
+                yield Fault("strict", (*place, key), f"{key!r} is an extension, and the mode is strict")
+            elif key in value:
+                yield from _extensions(value[key], member, (*place, key))
+    elif isinstance(value, list) and "items" in schema and "prefixItems" not in schema:
+        yield from chain.from_iterable(
+            _extensions(item, schema["items"], (*place, number)) for number, item in enumerate(value)
+        )
+
+
+def _named(members: Any, place: Place, key: str, kind: str, known: Collection[str]) -> Iterator[Fault]:
+    if key in members and members[key] not in known:
+        yield _unknown("attached", (*place, key), kind, members[key], known)
+
+
+def _unknown(rule: str, place: Place, kind: str, name: str, known: Collection[str]) -> Fault:
+    what, hint = suggest(kind, name, sorted(known))
+    return Fault(rule, place, what, hint=hint)
