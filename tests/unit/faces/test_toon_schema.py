@@ -69,10 +69,11 @@ def test_what_the_paper_has_is_told_from_extensions():
     assert paper == ["id", "kind", "fill", "path", "feature", "motor", "min", "max"]
 
 
-def test_references_lead_somewhere():
+def test_references_lead_somewhere_and_ranges_have_a_maximum():
     def walk(value):
         if isinstance(value, dict):
             assert referred(value) or "$ref" not in value
+            assert "maximum" in value or not {"minimum", "exclusiveMinimum"} & value.keys()
             for member in value.values():
                 walk(member)
         elif isinstance(value, list):

@@ -17,7 +17,7 @@ from .checks_limits import find_wrong_limits
 from .checks_names import find_wrong_names
 from .checks_outlines import find_wrong_outlines
 from .checks_places import Places, find_depth, find_places
-from .checks_poses import find_wild_poses
+from .checks_poses import POSES, find_wild_poses
 from .checks_schema import find_mismatches
 from .checks_sheet import Sheet
 from .reader import COLOR, MOST_BYTES, parse_toon
@@ -63,8 +63,8 @@ def check_file(path: Path) -> Report:
         return _broken("file", f"cannot be read ({error.strerror})", hint="give the name of a face file")
 
 
-def check_bytes(data: bytes) -> Report:
-    """What is wrong with the bytes of a file."""
+def check_bytes(data: bytes, poses: int = POSES) -> Report:
+    """What is wrong with the bytes of a file; one without errors is played in ``poses``."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -77,12 +77,12 @@ def check_bytes(data: bytes) -> Report:
     except json.JSONDecodeError as error:
         return _broken("json", f"column {error.colno}: {error.msg}", line=error.lineno, hint=_advice(error))
     places = find_places(text)
-    faults, face = _check(document, places)
+    faults, face = _check(document, places, poses)
     told = dict.fromkeys(_locate(fault, places, document) for fault in faults)
     return Report(tuple(sorted(told, key=lambda fault: (fault.line or 0, not fault.grave))), face)
 
 
-def _check(document: Any, places: Places) -> tuple[list[Fault], ToonFace | None]:
+def _check(document: Any, places: Places, poses: int) -> tuple[list[Fault], ToonFace | None]:
     repeated = [
         Fault("repeated", place, f"{place[-1]!r} stands here a second time", line=line)
         for place, line in places.repeated
@@ -91,8 +91,9 @@ def _check(document: Any, places: Places) -> tuple[list[Fault], ToonFace | None]
     if not isinstance(document, dict):
         return list(sheet.faults), None
     found = [*find_wrong_names(sheet), *find_wrong_limits(sheet), *find_wrong_outlines(sheet)]
-    limits = {fault.place for fault in found if fault.rule == "limits"}
-    faults = [*repeated, *(fault for fault in sheet.faults if fault.place not in limits), *found]
+    explained = {fault.place[:2] for fault in found if fault.rule == "limits"}
+    plain = (fault for fault in sheet.faults if fault.rule != "range" or fault.place[:2] not in explained)
+    faults = [*repeated, *plain, *found]
     numbers = {name: number for number, name in sheet.ids}
     character = _mended(document, sheet, faults)
     if character is not None:
@@ -103,7 +104,7 @@ def _check(document: Any, places: Places) -> tuple[list[Fault], ToonFace | None]
         face = ToonFace(parse_toon(json.dumps(document), "document"), "document")
     except MienError as error:
         return [*faults, Fault("type", (), str(error))], None
-    return [*faults, *find_wild_poses(face, numbers)], face
+    return [*faults, *find_wild_poses(face, numbers, poses)], face
 
 
 def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) -> Character | None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .checks_faults import Fault, Place
-from .lines import EYES, Moment, rest_of, trace_line
+from .lines import EYES, Moment, Stretch, rest_of
 from .polygons import Contours, Shape
 from .records import Character, Floats, Line
 
@@ -51,7 +51,8 @@ def _pupil(
     character: Character, rest: Moment, eye: str, outlines: dict[str, Contours], numbers: dict[str, int]
 ) -> Iterator[Fault]:
     pupil = f"P{eye[1]}"
-    upper, lower = (trace_line(rest, Line(eye, lower=lower)) for lower in (False, True))
+    lids = (Stretch(Line(eye, lower=lower), character.features[eye]) for lower in (False, True))
+    upper, lower = (lid.points(rest) for lid in lids)
     opening = (np.concatenate([upper, lower[::-1]]),)
     point = np.array(character.features[pupil].points[pupil])
     place: Place = ("features", pupil, "points", pupil)

@@ -11,6 +11,9 @@ from types import MappingProxyType
 from typing import Literal
 
 Severity = Literal["error", "warning"]
+SHOWN = 48
+"""Characters of a value or key that a message shows."""
+
 Place = tuple[str | int, ...]
 """The keys and numbers that lead to a value."""
 
@@ -67,7 +70,7 @@ class Fault:
             f"{word} {value}" for word, value in (("want", self.wanted), ("got", self.got)) if value
         )
         kind = "error" if self.grave else "warning"
-        who = f" ({self.who})" if self.who else ""
+        who = f" ({self.who[:SHOWN]})" if self.who else ""
         return f"{kind}: {format_place(self.place) or 'document'}{who}: {self.what}{wanted} — {self.advice}"
 
 
@@ -88,5 +91,5 @@ def rules() -> Mapping[str, Rule]:
 
 def format_place(place: Place) -> str:
     """``polygons[3].path`` for the keys and numbers that lead there."""
-    parts = (f"[{key}]" if isinstance(key, int) else f".{key}" for key in place)
+    parts = (f"[{key}]" if isinstance(key, int) else f".{key[:SHOWN]}" for key in place)
     return "".join(parts).removeprefix(".")

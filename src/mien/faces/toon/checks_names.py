@@ -93,8 +93,9 @@ def _range(sheet: Sheet, code: str) -> tuple[float, float]:
 
 
 def _unused(sheet: Sheet) -> Iterator[Fault]:
-    listed = sheet.value("polygons")
-    everyone = [polygon for polygon in listed if isinstance(polygon, dict)] if isinstance(listed, list) else []
+    everyone = [polygon for polygon in sheet.value("polygons") or () if isinstance(polygon, dict)]
+    if not everyone:
+        return
     fills = {str(polygon.get("fill")) for polygon in everyone} | {str(sheet.value("background"))}
     for key, used in (("palette", fills), ("parts", {str(polygon.get("part")) for polygon in everyone})):
         for name in sheet.members(key):

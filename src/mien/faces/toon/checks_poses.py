@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import count, islice
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from .motors import motors
 from .polygons import Shape
 from .toon import ToonFace
 
-POSES, SEED = 240, 1996
+POSES, SEED = 300, 1996
 
 WILD = 1.0
 """How far out of the canvas a polygon may go, in sizes of the canvas: our choice."""
@@ -22,17 +23,17 @@ WILD = 1.0
 Values = Mapping[str, float]
 
 
-def find_wild_poses(face: ToonFace, numbers: dict[str, int], count: int = POSES) -> Iterator[Fault]:
+def find_wild_poses(face: ToonFace, numbers: dict[str, int], poses: int = POSES) -> Iterator[Fault]:
     """Polygons that have no finite place in some pose, or one far away; each with the least that makes it so.
 
     Args:
         face: without faults at rest.
         numbers: those of the polygons in the document, by id.
-        count: poses that are tried.
+        poses: how many are tried.
     """
     reach = _reaches(face)
     told: set[str] = set()
-    for values in _poses(reach, count):
+    for values in islice(_poses(reach), poses):
         for name, rule in _misbehaving(face, values).items():
             if name in told:
                 continue
@@ -49,12 +50,12 @@ def _reaches(face: ToonFace) -> dict[str, tuple[float, float]]:
     return {code: (row.low, row.high) for code, row in rows.items()}
 
 
-def _poses(reach: Mapping[str, tuple[float, float]], count: int) -> Iterator[dict[str, float]]:
-    """Each motor at each end, then poses in which every motor is at an end or anywhere."""
+def _poses(reach: Mapping[str, tuple[float, float]]) -> Iterator[dict[str, float]]:
+    """Each motor at each end, then without end poses in which every motor is at an end or anywhere."""
     for code, ends in reach.items():
         yield from ({code: end} for end in ends)
     generator = np.random.default_rng(SEED)
-    for number in range(count):
+    for number in count():
         shares = generator.uniform(0.0, 1.0, len(reach))
         if number % 2:
             shares = np.round(shares)
@@ -77,10 +78,9 @@ def _broken(face: ToonFace, pose: Pose) -> dict[str, str]:
     except MienError:
         return dict.fromkeys(_infinite(face, pose), "pose")
     low, high = -WILD * np.array(face.character.size), (1.0 + WILD) * np.array(face.character.size)
+    spans = {path.name: np.concatenate(path.contours) for path in drawing.paths}
     return {
-        path.name: "wild"
-        for path in drawing.paths
-        if any(((contour < low) | (contour > high)).any() for contour in path.contours)
+        name: "wild" for name, points in spans.items() if (points.min(0) < low).any() or (points.max(0) > high).any()
     }
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from mien.core import UnknownNameError
 
-from .checks_faults import Fault, Place
+from .checks_faults import SHOWN, Fault, Place
 from .schema import Schema, referred, title
 
 TYPES: Mapping[str, tuple[str, tuple[type, ...]]] = {
@@ -25,8 +25,6 @@ TYPES: Mapping[str, tuple[str, tuple[type, ...]]] = {
     "number": ("a number", (int, float)),
     "integer": ("a whole number", (int, float)),
 }
-SHOWN = 48
-"""Characters of a value that a message shows."""
 
 
 def find_mismatches(value: Any, schema: Schema, place: Place = ()) -> Iterator[Fault]:
@@ -36,9 +34,9 @@ def find_mismatches(value: Any, schema: Schema, place: Place = ()) -> Iterator[F
     if "type" in schema and not is_type(value, schema["type"]):
         yield Fault("type", place, "is of another kind", _wanted(schema), show(value))
         return
-    for words, check in _CHECKS:
-        if not words.isdisjoint(schema):
-            yield from check(value, schema, place)
+    for word in schema:
+        if word in _CHECKS:
+            yield from _CHECKS[word](value, schema, place)
 
 
 def is_type(value: Any, name: str) -> bool:
@@ -59,7 +57,7 @@ def show(value: Any) -> str:
 
 def suggest(kind: str, name: str, known: Any) -> tuple[str, str]:
     """What is wrong with a name that is none of the known ones, and what was perhaps meant."""
-    what, _, hint = str(UnknownNameError(kind, name, known)).partition(" — ")
+    what, _, hint = str(UnknownNameError(kind, name[:SHOWN], known)).partition(" — ")
     return what, hint
 
 
@@ -77,7 +75,7 @@ def _check_enum(value: Any, schema: Schema, place: Place) -> Iterator[Fault]:
     if not isinstance(value, str):
         yield Fault("type", place, "is of another kind", title(schema) or "a text", show(value))
     elif value not in schema["enum"]:
-        what, hint = suggest(title(schema).removeprefix("a ") or str(place[-1]), value[:SHOWN], schema["enum"])
+        what, hint = suggest(title(schema).removeprefix("a ") or str(place[-1]), value, schema["enum"])
         yield Fault("name", place, what, hint=hint)
 
 
@@ -128,7 +126,7 @@ def _check_additional(value: Any, schema: Schema, place: Place) -> Iterator[Faul
         if key in known:
             continue
         if schema["additionalProperties"] is False:
-            what, hint = suggest("key", key[:SHOWN], known)
+            what, hint = suggest("key", key, known)
             yield Fault("unknown", (*place, key), what, hint=hint)
         else:
             yield from find_mismatches(value[key], schema["additionalProperties"], (*place, key))
@@ -190,20 +188,21 @@ def _type(schema: Schema) -> str:
     return str(schema.get("type") or (_type(referred(schema)) if "$ref" in schema else "object"))
 
 
-_CHECKS: tuple[tuple[set[str], Callable[[Any, Schema, Place], Iterator[Fault]]], ...] = (
-    ({"const"}, _check_const),
-    ({"enum"}, _check_enum),
-    ({"pattern"}, _check_pattern),
-    ({"minLength"}, _check_length),
-    ({"minimum", "exclusiveMinimum", "maximum"}, _check_bounds),
-    ({"required"}, _check_required),
-    ({"properties"}, _check_properties),
-    ({"additionalProperties"}, _check_additional),
-    ({"propertyNames"}, _check_names),
-    ({"prefixItems"}, _check_prefix),
-    ({"items"}, _check_items),
-    ({"oneOf", "anyOf"}, _check_choice),
-    ({"allOf"}, _check_all),
-    ({"if"}, _check_if),
-)
-"""By the words of a schema that ask for them."""
+_CHECKS: Mapping[str, Callable[[Any, Schema, Place], Iterator[Fault]]] = {
+    "const": _check_const,
+    "enum": _check_enum,
+    "pattern": _check_pattern,
+    "minLength": _check_length,
+    "maximum": _check_bounds,
+    "required": _check_required,
+    "properties": _check_properties,
+    "additionalProperties": _check_additional,
+    "propertyNames": _check_names,
+    "prefixItems": _check_prefix,
+    "items": _check_items,
+    "oneOf": _check_choice,
+    "anyOf": _check_choice,
+    "allOf": _check_all,
+    "if": _check_if,
+}
+"""By the word of a schema that asks for it; every range has a maximum."""

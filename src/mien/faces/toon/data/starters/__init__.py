@@ -1,0 +1,1 @@
+"""Faces to start a drawing from, as files."""
