@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from mien.core import Parameter
 
 
+NUMBERS = ("default", "from", "to", "moves, mm")
+
+
 def params(face: options.FaceName, as_json: options.Json = False) -> None:
     """List the parameters of a face: names, ranges, how far they move it at both ends, meanings.
 
@@ -44,14 +47,18 @@ def params(face: options.FaceName, as_json: options.Json = False) -> None:
             }
         )
         return
-    print_table(
-        ("parameter", "default", "from", "to", "unit", "moves, mm", "what it does"),
-        [
-            (row.name, f"{row.default:g}", f"{row.low:g}", f"{row.high:g}", row.unit, _reach(row), row.doc)
-            for row in subject.parameters
-        ],
-        numbers=(1, 2, 3, 5),
-    )
+    columns = {
+        "parameter": [row.name for row in subject.parameters],
+        "default": [f"{row.default:.4g}" for row in subject.parameters],
+        "from": [f"{row.low:g}" for row in subject.parameters],
+        "to": [f"{row.high:g}" for row in subject.parameters],
+        "unit": [row.unit for row in subject.parameters],
+        "moves, mm": [_reach(row) for row in subject.parameters],
+        "what it does": [row.doc for row in subject.parameters],
+    }
+    shown = {name: cells for name, cells in columns.items() if any(cells)}
+    numbers = tuple(number for number, name in enumerate(shown) if name in NUMBERS)
+    print_table(tuple(shown), list(zip(*shown.values(), strict=True)), numbers=numbers)
 
 
 def _reach(row: Parameter) -> str:
