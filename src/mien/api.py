@@ -38,27 +38,11 @@ if TYPE_CHECKING:
 
 DEFAULT_FACE = "head"
 
-KERNELS = (
-    "mien.faces.head.carrying",
-    "mien.faces.head.conformation",
-    "mien.faces.head.contact",
-    "mien.faces.head.posing",
-    "mien.formats.palette",
-    "mien.formats.yuv",
-    "mien.render.bands",
-    "mien.render.filling",
-    "mien.render.lighting",
-    "mien.render.placing",
-    "mien.render.refining",
-    "mien.render.spans",
-    "mien.render.sweeping",
-)
-"""Modules with compiled code."""
-
 
 def warmup(report: Callable[[str], None] | None = None) -> None:
     """Load, and if need be compile, what would otherwise be compiled at its first use; the report hears of it."""
     from .compiling import load_kernels, on_compile
+    from .compiling.listed import KERNELS
 
     if report is not None:
         on_compile(report)
