@@ -1,0 +1,202 @@
+"""A drawing on an egg: as wide as the drawn head on every side, and as deep as it is wide.
+
+A point of the drawing lies on the egg where a ray from the front meets it. In coordinates of a unit ball its direction
+from the middle stays, and its distance is a share of how far the head reaches there, so that the outline of the head
+is the rim between front and back. What has turned away is cut off at the horizon, along which the outlines of the rest
+close.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mien.core import exact
+
+from .records import Floats
+from .solid_motion import Motion
+from .solid_rim import COUNT, INSIDE, directions, place_around, reach
+
+OPPOSITE = 0.9
+"""A viewer who is this near to opposite of one side, in radii of the ball, sees nothing but the other side."""
+
+NEAR_RIM = 0.7
+"""So far from the middle of the ball, and farther, the drawing is stretched towards the outline of the head."""
+
+WHOLLY = 0.03
+"""By an angle with this versine (14 degrees) the stretch is complete."""
+
+STEEP = 0.9
+"""From more above or below, another direction serves to tell left from right."""
+
+BESIDE = 0.2
+"""What stands out less than this before or behind the middle, in half depths, is drawn where it was: our choice."""
+
+
+@dataclass(frozen=True, eq=False)
+class Egg:
+    """A ball as wide in each direction as a drawn head.
+
+    Attributes:
+        radii: (COUNT,) of ``solid_rim``, from the middle of the head.
+        motion: how it is turned.
+    """
+
+    radii: Floats
+    motion: Motion
+
+    @cached_property
+    def size(self) -> tuple[float, float, float]:
+        """Half its width, height and depth; the depth is the width."""
+        count = len(self.radii)
+        wide = 0.5 * float(self.radii[0] + self.radii[count // 2])
+        tall = 0.5 * float(self.radii[count // 4] + self.radii[3 * count // 4])
+        return wide, tall, wide
+
+    @cached_property
+    def viewer(self) -> Floats:
+        """(3,) the point of the ball that is nearest to the viewer."""
+        # On an ellipsoid with half axes s a normal is p / s where the point is p s.
+        way = np.array([w * s for w, s in zip(self.motion.towards_viewer, self.size, strict=True)])
+        return way / np.sqrt((way * way).sum())
+
+    def carry(self, contours: Sequence[Floats], *, back: bool = False) -> list[Floats]:
+        """What is seen of closed contours (N, 2) of the drawing, from the middle of the head, y up.
+
+        Args:
+            contours: of one polygon.
+            back: they lie on the back of the egg instead of its front.
+        """
+        seen: list[Floats] = []
+        for contour in contours:
+            ball, over = self.on_ball(contour, -1 if back else 1)
+            facing = (ball * self.viewer).sum(axis=1)
+            if (facing <= 0.0).all():
+                continue
+            if (facing >= 0.0).all():
+                seen.append(self.place(ball, over))
+            else:
+                seen.append(self._cut_off(ball, over, facing))
+        if not seen:
+            return []
+        # From outside, what lies on the back runs the other way round; all outlines shall run alike.
+        seen = [contour[::-1] for contour in seen] if back else seen
+        # What lies on one side of the egg does not run around a point of the other. Where its outline seems to, as it
+        # runs around the whole egg where nobody sees it, the outline of the egg the other way round takes that back.
+        point = self.viewer + np.array([0.0, 0.0, 1.0 if back else -1.0])
+        length = float(np.sqrt((point * point).sum()))
+        if length < OPPOSITE:
+            return seen
+        other = self.place(point[None] / length)[0]
+        rounds = sum(winding(contour, other) for contour in seen)
+        return [*seen, *([self.outline[::-1] if rounds > 0 else self.outline] * abs(rounds))]
+
+    def _cut_off(self, ball: Floats, over: Floats, facing: Floats) -> Floats:
+        """The outline of what is seen of a contour on the ball, along the horizon where the contour is hidden."""
+        start = int(np.flatnonzero((facing >= 0.0) & (np.roll(facing, 1) < 0.0))[0])
+        ball, over, facing = (np.roll(each, -start, axis=0) for each in (ball, over, facing))
+        hidden = facing < 0.0
+        turns = self._horizon_place(ball)
+        outline = []
+        begins = np.flatnonzero(~hidden & np.roll(hidden, 1))
+        ends = np.flatnonzero(hidden & ~np.roll(hidden, 1))
+        for number, (begin, end) in enumerate(zip(begins, ends, strict=True)):
+            outline.append(self.place(ball[begin:end], over[begin:end]))
+            after = int(begins[number + 1]) if number + 1 < len(begins) else len(ball)
+            gone = np.arange(end - 1, after + 1) % len(ball)
+            leaves, returns = (
+                self._crossing(ball, facing, gone[0], gone[1]),
+                self._crossing(ball, facing, gone[-1], gone[-2]),
+            )
+            way = np.concatenate(
+                [self._horizon_place(leaves[None]), turns[gone[1:-1]], self._horizon_place(returns[None])]
+            )
+            steps = np.diff(way)
+            steps -= np.rint(steps / COUNT) * COUNT
+            rims = np.stack([leaves, returns])
+            edge = self.place(rims, over[gone[[0, -1]]])
+            outline += [edge[:1], self._arc(float(way[0]), float(steps.sum())), edge[1:]]
+        return np.concatenate(outline)
+
+    def _crossing(self, ball: Floats, facing: Floats, seen: int, hidden: int) -> Floats:
+        """(3,) the point of the horizon between a point that is seen and a hidden one."""
+        share = facing[seen] / (facing[seen] - facing[hidden])
+        point = ball[seen] * (1.0 - share) + ball[hidden] * share
+        return np.asarray(point / np.sqrt((point * point).sum()))
+
+    def _arc(self, start: float, length: float) -> Floats:
+        """Corners of the outline of the whole egg between a place and another further on, or further back."""
+        if length >= 0.0:
+            numbers = np.arange(np.floor(start) + 1.0, np.ceil(start + length))
+        else:
+            numbers = np.arange(np.ceil(start) - 1.0, np.floor(start + length), -1.0)
+        return self.outline[numbers.astype(np.int64) % COUNT]
+
+    def _horizon_place(self, ball: Floats) -> Floats:
+        """(N,) places 0..COUNT around the outline of the whole egg that points of the ball (N, 3) are next to."""
+        across, up = self._horizon
+        return place_around(np.stack([(ball * across).sum(axis=1), (ball * up).sum(axis=1)], axis=1))
+
+    def on_ball(self, points: Floats, side: float) -> tuple[Floats, Floats]:
+        """(N, 3) points of the ball under points of the drawing, and (N,) how far these stand out beyond its rim."""
+        share = points / reach(self.radii, points)[:, None]
+        square = (share * share).sum(axis=1)
+        over = np.sqrt(np.maximum(square, 1.0))
+        ahead = side * np.sqrt(np.maximum(1.0 - square, 0.0))
+        return np.column_stack([share / over[:, None], ahead]), over
+
+    def place(self, ball: Floats, over: Floats | float = 1.0) -> Floats:
+        """(N, 2) where points (N, 3) of the ball are seen, from the middle of the head, y up."""
+        flat = ball[:, :2]
+        # The rim lies a little within the outline of the head; on a turned egg it takes the place of that outline.
+        towards = abs(self.motion.towards_viewer[2])
+        turned = min((1.0 - towards) / WHOLLY, 1.0)
+        margin = 1.0 / INSIDE - 1.0
+        from_middle = np.sqrt((flat * flat).sum(axis=1))
+        grown = margin * turned * exact.smoothstep((from_middle - NEAR_RIM) / (1.0 - NEAR_RIM))
+        beyond = np.minimum(over - 1.0, margin) * (1.0 - turned) + np.maximum(over - 1.0 - margin, 0.0) * towards
+        flat = flat * (reach(self.radii, flat) * (1.0 + grown + beyond))[:, None]
+        return self.motion.apply(np.column_stack([flat, ball[:, 2] * self.size[2]]))[:, :2]
+
+    def stand(self, contour: Floats, anchor: Floats) -> tuple[Floats, int]:
+        """A contour of something that stands out, and whether it is behind (-1), before (1) or beside the egg (0).
+
+        It keeps its shape, but is narrower from the side, and goes along with its middle.
+
+        Args:
+            contour: (N, 2) of the drawing, from the middle of the head, y up.
+            anchor: (2,) its middle at rest.
+        """
+        x, y, ahead = self.motion.apply(np.array([[*anchor, 0.0]]))[0]
+        (a, b), (c, d) = self.motion.lean
+        right, up = ((contour - anchor) * self.motion.widths).T
+        seen = np.stack([x + a * right + b * up, y + c * right + d * up], axis=1)
+        return seen, 0 if abs(ahead) < BESIDE * self.size[2] else 1 if ahead > 0.0 else -1
+
+    @cached_property
+    def outline(self) -> Floats:
+        """(COUNT, 2) the outline of the whole egg, counter-clockwise."""
+        across, up = self._horizon
+        way = directions()
+        return self.place(way[:, :1] * across + way[:, 1:] * up)
+
+    @cached_property
+    def _horizon(self) -> tuple[Floats, Floats]:
+        """Two directions (3,) across the way to the viewer and one another, to the right and up of it."""
+        x, y, z = self.viewer
+        across = np.array([z, 0.0, -x]) if abs(y) < STEEP else np.array([y, -x, 0.0])
+        across = across / np.sqrt((across * across).sum())
+        a, b, c = across
+        return across, np.array([y * c - z * b, z * a - x * c, x * b - y * a])
+
+
+def winding(contour: Floats, point: Floats) -> int:
+    """How often a closed contour (N, 2) runs around a point, counter-clockwise."""
+    x, y = (contour - point).T
+    next_x, next_y = np.roll(x, -1), np.roll(y, -1)
+    left = x * next_y - next_x * y
+    up, down = (y <= 0.0) & (next_y > 0.0) & (left > 0.0), (y > 0.0) & (next_y <= 0.0) & (left < 0.0)
+    return int(up.sum()) - int(down.sum())
