@@ -10,6 +10,7 @@ from mien.core import Face, LoadError, MienError, UnknownNameError
 
 from .head.people import address, people, read_head, shipped_head
 from .toon.shipped import shipped_toon, toon_from_file, toons
+from .toon.solid import on_solid
 
 SUFFIXES: Mapping[str, Callable[[Path], Face]] = {".face.json": read_head, ".toon.json": toon_from_file}
 KINDS: Mapping[str, Callable[[str], Face]] = {"head": shipped_head, "toon": shipped_toon}
@@ -21,13 +22,16 @@ def face_names() -> list[tuple[str, str]]:
 
 
 def load_face(name: str | os.PathLike[str]) -> Face:
-    """The face at an address: a shipped face or a face file.
+    """The face at an address: a shipped face or a face file; a drawn one with ``+egg`` or ``+box`` on a solid body.
 
     Raises:
         UnknownNameError: no face has that name.
         LoadError: the file is missing or not a face.
     """
     text = os.fspath(name)
+    drawn, _, solid = text.rpartition("+")
+    if drawn.startswith("toon:") or drawn.lower().endswith(".toon.json"):
+        return on_solid(load_face(drawn), solid)
     for suffix, read in SUFFIXES.items():
         if text.lower().endswith(suffix):
             path = Path(text)

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from mien.core import Drawing, Parameter, ParameterTable, Path, Pose
+from mien.core import Drawing, Face, MienError, Parameter, ParameterTable, Path, Pose, UnknownNameError
 
 from .polygons import Contours
 from .records import Floats
@@ -112,8 +112,12 @@ class OnSolid(ToonFace):
                         pieces[-1].append(Piece(min(ahead, 1 if form.ears[number] else 0), (seen,)))
             else:
                 back = egg.carry(each, back=True) if role == "around" else []
-                pieces.append([Piece(0, (*egg.carry(each), *back))])
-                if self._shapes[number].polygon.layer in OVER_BACK:
+                polygon = self._shapes[number].polygon
+                if polygon.rule == "nonzero":
+                    pieces.append([Piece(0, (*egg.carry(each), *back))])
+                else:  # Where front and back overlap at the rim, the rule would make a hole of that.
+                    pieces.append([Piece(0, tuple(back), alone=True), Piece(0, tuple(egg.carry(each)))])
+                if polygon.layer in OVER_BACK:
                     pieces[-1].append(Piece(1, tuple(back)))
         return self._painted(pieces, pose)
 
@@ -157,14 +161,29 @@ class OnSolid(ToonFace):
         for number, (path, each) in enumerate(zip(drawing.paths, pieces, strict=True)):
             # What was drawn before or after all of the head stays there.
             beyond = -FAR if number < turning[0] else FAR if number > turning[-1] else 0
-            together: dict[tuple[int, bool], list[Floats]] = {}
+            together: dict[tuple[int, bool, bool], list[Floats]] = {}
             for piece in each:
-                together.setdefault((piece.stage or beyond, not piece.wall), []).extend(piece.contours)
-            for (stage, flat), found in sorted(together.items()):
+                together.setdefault((piece.stage or beyond, not piece.wall, not piece.alone), []).extend(piece.contours)
+            for (stage, flat, _), found in sorted(together.items()):
                 if found:
                     part = replace(path, contours=form.on_canvas(found))
                     stages.setdefault(stage, []).append(part if flat else _wall(part))
         return replace(drawing, paths=tuple(chain(*(stages[stage] for stage in sorted(stages)))))
+
+
+def on_solid(face: Face, solid: str) -> OnSolid:
+    """A drawn face on a solid body, egg or box.
+
+    Raises:
+        UnknownNameError: there is no such body.
+        MienError: the face is not drawn.
+    """
+    for known in SOLIDS:
+        if solid == known and isinstance(face, ToonFace):
+            return OnSolid(face.character, f"{face.name}+{solid}", solid=known)
+    if not isinstance(face, ToonFace):
+        raise MienError(f"{face.name}: only drawn faces can be put on {' or '.join(SOLIDS)}")
+    raise UnknownNameError("solid body", solid, SOLIDS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,12 +193,14 @@ class Piece:
     Attributes:
         stage: when it is drawn: 0 in its turn, below 0 before all others of the head, above 0 after them.
         contours: from the middle of the head, y up.
-        wall: it is a wall of a box.
+        wall: it is a wall of a box, and drawn before what is none.
+        alone: it is a path of its own, drawn before the rest of the polygon.
     """
 
     stage: int
     contours: Contours
     wall: bool = False
+    alone: bool = False
 
 
 def _wall(path: Path) -> Path:

@@ -29,6 +29,9 @@ NEAR_RIM = 0.7
 WHOLLY = 0.03
 """By an angle with this versine (14 degrees) the stretch is complete."""
 
+SINKS = 0.35
+"""So far behind the horizon, in radii of the ball, nothing that stands out over the rim is seen: our choice."""
+
 STEEP = 0.9
 """From more above or below, another direction serves to tell left from right."""
 
@@ -58,9 +61,9 @@ class Egg:
 
     @cached_property
     def viewer(self) -> Floats:
-        """(3,) the point of the ball that is nearest to the viewer."""
-        # On an ellipsoid with half axes s a normal is p / s where the point is p s.
-        way = np.array([w * s for w, s in zip(self.motion.towards_viewer, self.size, strict=True)])
+        """(3,) a unit vector: points of the ball on its side face the viewer."""
+        # On an ellipsoid with half axes s the normal is p / s where the point is p s.
+        way = np.array([w / s for w, s in zip(self.motion.towards_viewer, self.size, strict=True)])
         return way / np.sqrt((way * way).sum())
 
     def carry(self, contours: Sequence[Floats], *, back: bool = False) -> list[Floats]:
@@ -73,7 +76,14 @@ class Egg:
         seen: list[Floats] = []
         for contour in contours:
             ball, over = self.on_ball(contour, -1 if back else 1)
+            if back == self.motion.shows_front:
+                over = np.ones(len(over))  # What stands out is shown once, by the side that is seen more.
             facing = (ball * self.viewer).sum(axis=1)
+            # What stands out over the rim sinks behind the horizon little by little.
+            sinking = (over > 1.0) & (facing < 0.0) & (facing > -SINKS)
+            ball = np.where(sinking[:, None], self._to_horizon(ball, facing), ball)
+            over = np.where(sinking, 1.0 + (over - 1.0) * (1.0 + facing / SINKS), over)
+            facing = np.where(sinking, 0.0, facing)
             if (facing <= 0.0).all():
                 continue
             if (facing >= 0.0).all():
@@ -90,7 +100,7 @@ class Egg:
         length = float(np.sqrt((point * point).sum()))
         if length < OPPOSITE:
             return seen
-        other = self.place(point[None] / length)[0]
+        other = self.place(point[None] / length, 1.0)[0]
         rounds = sum(winding(contour, other) for contour in seen)
         return [*seen, *([self.outline[::-1] if rounds > 0 else self.outline] * abs(rounds))]
 
@@ -140,6 +150,12 @@ class Egg:
         across, up = self._horizon
         return place_around(np.stack([(ball * across).sum(axis=1), (ball * up).sum(axis=1)], axis=1))
 
+    def _to_horizon(self, ball: Floats, facing: Floats) -> Floats:
+        """(N, 3) points of the horizon that are nearest to hidden points."""
+        flat = ball - facing[:, None] * self.viewer
+        length = np.sqrt((flat * flat).sum(axis=1))
+        return np.asarray(flat / np.where(length > 0.0, length, 1.0)[:, None])
+
     def on_ball(self, points: Floats, side: float) -> tuple[Floats, Floats]:
         """(N, 3) points of the ball under points of the drawing, and (N,) how far these stand out beyond its rim."""
         share = points / reach(self.radii, points)[:, None]
@@ -148,7 +164,7 @@ class Egg:
         ahead = side * np.sqrt(np.maximum(1.0 - square, 0.0))
         return np.column_stack([share / over[:, None], ahead]), over
 
-    def place(self, ball: Floats, over: Floats | float = 1.0) -> Floats:
+    def place(self, ball: Floats, over: Floats | float) -> Floats:
         """(N, 2) where points (N, 3) of the ball are seen, from the middle of the head, y up."""
         flat = ball[:, :2]
         # The rim lies a little within the outline of the head; on a turned egg it takes the place of that outline.
@@ -181,7 +197,7 @@ class Egg:
         """(COUNT, 2) the outline of the whole egg, counter-clockwise."""
         across, up = self._horizon
         way = directions()
-        return self.place(way[:, :1] * across + way[:, 1:] * up)
+        return self.place(way[:, :1] * across + way[:, 1:] * up, 1.0)
 
     @cached_property
     def _horizon(self) -> tuple[Floats, Floats]:

@@ -26,6 +26,9 @@ OUT, OUTER = 1.08, 0.4
 SMALL, TINY = 0.5, 0.06
 """Shares of the area of the head: what is smaller and lies behind the face, or elsewhere, is small; our choice."""
 
+EDGE = 1.0
+"""What comes so near to the lower edge of the canvas reaches it, drawing units."""
+
 BROAD, NOTCHES = 12, 3
 """What does not count for the rim, in 1 / 128 turns: at first all that stands out, then only what is very narrow."""
 
@@ -67,14 +70,15 @@ class Form:
             rest: their contours.
         """
         center = np.array(character.head.center)
-        heads = [number for number, polygon in enumerate(polygons) if not polygon.body and not polygon.clip]
+        still = _still(polygons, rest, character.size[1])
+        heads = [number for number, polygon in enumerate(polygons) if not still[number] and not polygon.clip]
         ends = directions() * measure_reach(_relative(rest, heads, center), BROAD)[:, None]
         center = center + 0.5 * (ends.min(axis=0) + ends.max(axis=0)) * [1.0, -1.0]
         radii = measure_reach(_relative(rest, heads, center), BROAD)
         placed = [tuple(_up(contour, center) for contour in contours) for contours in rest]
-        roles = _roles(polygons, placed, radii)
+        roles = _roles(polygons, still, placed, radii)
         radii = measure_reach(_relative(rest, [each for each in heads if roles[each] != "out"], center), NOTCHES)
-        roles = _roles(polygons, placed, radii)
+        roles = _roles(polygons, still, placed, radii)
         return cls(
             character.size[1],
             center,
@@ -123,6 +127,16 @@ def _beside(middle: Floats) -> bool:
     return bool(middle[1] < 0.5 * abs(middle[0]))
 
 
+def _still(polygons: Sequence[Polygon], rest: Sequence[Contours], height: float) -> list[bool]:
+    """Which polygons are below the head: those that say so, else what reaches the lower edge and what lies on that."""
+    if any(polygon.body for polygon in polygons):
+        return [polygon.body for polygon in polygons]
+    points = [np.concatenate(contours) for contours in rest]
+    low = [each for each in points if each[:, 1].max() >= height - EDGE]
+    tops = [(each.min(axis=0), each.max(axis=0)) for each in low]
+    return [any((each.mean(axis=0) >= a).all() and (each.mean(axis=0) <= b).all() for a, b in tops) for each in points]
+
+
 def _inner(roles: Sequence[Role], placed: Sequence[Contours]) -> tuple[bool, ...]:
     boxes: list[tuple[Floats, Floats]] = []
     found = []
@@ -139,12 +153,14 @@ def _relative(rest: Sequence[Contours], chosen: Sequence[int], center: Floats) -
     return [[_up(contour, center) for contour in rest[number]] for number in chosen]
 
 
-def _roles(polygons: Sequence[Polygon], placed: Sequence[Contours], radii: Floats) -> tuple[Role, ...]:
+def _roles(
+    polygons: Sequence[Polygon], still: Sequence[bool], placed: Sequence[Contours], radii: Floats
+) -> tuple[Role, ...]:
     """What each polygon is, by its contours from the middle of the head, y up."""
     whole = area(directions() * radii[:, None])
     roles: dict[str, Role] = {}
-    for polygon, contours in zip(polygons, placed, strict=True):
-        roles[polygon.id] = _role(polygon, contours, radii, whole)
+    for polygon, stays, contours in zip(polygons, still, placed, strict=True):
+        roles[polygon.id] = "still" if stays else _role(polygon, contours, radii, whole)
     # What is cut by another polygon lies where that does.
     for polygon in polygons:
         for cutter in polygon.clip:
@@ -154,16 +170,13 @@ def _roles(polygons: Sequence[Polygon], placed: Sequence[Contours], radii: Float
 
 
 def _role(polygon: Polygon, contours: Contours, radii: Floats, whole: float) -> Role:
-    if polygon.body:
-        return "still"
     shares = _shares(np.concatenate(contours), radii)
     size = abs(sum(area(contour) for contour in contours))
     small = size < (SMALL if polygon.layer == "back" else TINY) * whole
     if small and shares.max() > OUT and (shares > 1.0).mean() > OUTER:
         return "out"
-    if shares.max() < AT_RIM or polygon.feature not in ("", *EARS):
-        return "front"
-    return "around"
+    painted = polygon.feature not in ("", *EARS) or (polygon.kind == "point" and small)
+    return "front" if painted or shares.max() < AT_RIM else "around"
 
 
 def _shares(points: Floats, radii: Floats) -> Floats:
