@@ -16,6 +16,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
 """The commands about drawn faces."""
 
 app.command("from-svg")(toon_svg.from_svg)
+app.command("to-svg")(toon_svg.to_svg)
 
 SHOWN = 40
 """Faults of a file that a person is shown."""

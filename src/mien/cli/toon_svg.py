@@ -26,6 +26,43 @@ Guessed = Annotated[
 ]
 
 
+def to_svg(
+    face: options.FaceName,
+    out: SvgOut,
+    values: options.Sets = None,
+    preset: options.Presets = None,
+    units: options.Units = None,
+    person: options.Random = None,
+    quiet: options.Quiet = False,
+) -> None:
+    """Write a drawn face as an SVG with layers named after features, to draw on; from-svg reads it again.
+
+    At rest curves stay curves and strokes of one width stay strokes; in other poses outlines are fine polygons.
+
+    \b
+    mien toon to-svg toon:olav -o olav.svg
+    mien toon to-svg mina.toon.json -o smile.svg --preset smile
+    """
+    from mien import api
+    from mien.core import MienError
+    from mien.faces.toon.toon import ToonFace
+    from mien.formats.atomic import check_file, writing
+    from mien.formats.toon_to_svg import toon_to_svg
+
+    from . import settings
+
+    if out.suffix.lower() != ".svg":
+        raise MienError(f"{out}: a drawing wants a name that ends in .svg")
+    check_file(out)
+    subject = api.load_face(face)
+    if not isinstance(subject, ToonFace):
+        raise MienError(f"{face}: is no drawn face — a picture of it as SVG: mien render {face} -o {out}")
+    text = toon_to_svg(subject, settings.make_pose(subject, values, preset, units, None, person))
+    with writing(out) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    Stages(quiet).say(f"{out}: {text.count('<path id=')} shapes")
+
+
 def from_svg(
     drawing: Drawing,
     out: ToonOut,

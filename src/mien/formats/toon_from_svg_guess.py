@@ -13,7 +13,7 @@ from pathlib import Path
 
 from mien.core import LoadError
 
-from .toon_from_svg_pieces import Box, Piece, contrast, join, luminance
+from .toon_from_svg_pieces import Box, Piece, area, contrast, join, luminance
 
 SIDES = ("R", "L")
 EYE_ROLES = ("eye", "white", "pupil", "lid", "lash")
@@ -34,6 +34,9 @@ LIGHT = 0.62
 EYES_AT, EYES_SPREAD = 0.4, 0.2
 MOUTH_AT, MOUTH_SPREAD = 0.74, 0.17
 """Where eyes and mouth are looked for, as a share of the height of the face, and how far from there they may be."""
+
+FLAT = 0.01
+"""Area of a shape without height, as a share of the square of its width."""
 
 LEAST = 0.08
 """Of the score that a face as in most drawings has: what is less sure is not taken for eyes or a mouth."""
@@ -290,7 +293,7 @@ class _Search:
                 self._take([piece], "teeth" if luminance(piece.shape.color) > LIGHT or upper else "tongue")
         for piece in rest:
             if piece.stroked:
-                ringed = bool(filled) and _close(piece.box, filled[0].box)
+                ringed = bool(filled) and not is_flat(filled[0]) and _close(piece.box, filled[0].box)
                 self._take([piece], "mouth_ring" if piece.ring or ringed else "mouth_line")
 
     def find_rest(self) -> None:
@@ -337,6 +340,11 @@ class _Search:
             hint="name layers or ids after features (eye_right, eye_left, pupil, mouth, brow, nose, ear, head), "
             "or draw two eyes and, below them, a mouth",
         )
+
+
+def is_flat(piece: Piece) -> bool:
+    """Whether a shape has no height to speak of, as the opening of a shut mouth."""
+    return piece.box.area > 0.0 and abs(area(piece.points)) < FLAT * piece.box.width**2
 
 
 def _could_be_head(piece: Piece, size: tuple[float, float]) -> bool:

@@ -175,10 +175,10 @@ def make_pieces(drawing: SvgDrawing, tolerance: float) -> tuple[tuple[float, flo
 
 def _measure(shape: SvgShape, tolerance: float) -> Piece:
     contours = tuple(tuple(flatten(contour, tolerance)) for contour in shape.outline)
-    role, lower = _find_role(shape.names)
+    role, lower = find_role(shape.names)
     named = bool(role)
     if not named:
-        role, lower = _find_role(shape.groups)
+        role, lower = find_role(shape.groups)
     return Piece(shape, contours, box_of(point for contour in contours for point in contour), role, lower, named)
 
 
@@ -186,10 +186,11 @@ def _is_background(piece: Piece, canvas: Box) -> bool:
     """A shape behind everything that fills the canvas; a round face at its edges is none."""
     if piece.stroked or not piece.box.grown(0.01 * canvas.width).holds(canvas):
         return False
-    return piece.role == "background" or _area(piece.contours[0]) >= COVERS * canvas.area
+    return piece.role == "background" or area(piece.contours[0]) >= COVERS * canvas.area
 
 
-def _area(points: Sequence[Point]) -> float:
+def area(points: Sequence[Point]) -> float:
+    """What a closed line goes around."""
     ends = [*points[1:], points[0]]
     return abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(points, ends, strict=True))) / 2.0
 
@@ -220,7 +221,7 @@ def _words() -> Mapping[str, tuple[str, int]]:
     return {row["word"]: (row["role"], int(row["rank"])) for row in csv.DictReader(text.splitlines())}
 
 
-def _find_role(names: Sequence[str]) -> tuple[str, bool]:
+def find_role(names: Sequence[str]) -> tuple[str, bool]:
     """Role, and whether it is the lower one of two; the innermost name that tells it counts.
 
     A code such as ``ER`` counts only at the beginning of a name and in capitals.

@@ -10,7 +10,7 @@ from .numbers import format_number
 from .svg_reader_outlines import Outline, ellipse, path_data
 from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette, mix
-from .toon_from_svg_guess import Found, Part
+from .toon_from_svg_guess import Found, Part, is_flat
 from .toon_from_svg_lenses import lens_outline
 from .toon_from_svg_pieces import PAPER, Box, Piece, contrast, luminance
 from .toon_from_svg_rig import Rig
@@ -167,16 +167,24 @@ class _Maker:
         if role == "mouth_ring":
             yield self._entry(part, "feature", "mouth_rim", feature="M")
         elif role == "mouth_line":
-            yield self._entry(part, "feature", "mouth_line", feature="M", line="upper")
-            yield self._entry(part, "feature", "mouth_line_lower", feature="M", line="lower")
+            # One line stands for both lips, unless a second one is called the lower.
+            paired = any(each.piece.lower for each in self._found.of(role))
+            if not part.piece.lower:
+                yield self._entry(part, "feature", "mouth_line", feature="M", line="upper")
+            if part.piece.lower or not paired:
+                yield self._entry(part, "feature", "mouth_line_lower", feature="M", line="lower")
         elif role == "lip":
             lower = part.piece.lower
-            line = {"line": "lower" if lower else "upper"} if len(self._found.of("lip")) > 1 else {}
+            alone = len(self._found.of("lip", "mouth")) == 1
+            line = {} if alone else {"line": "lower" if lower else "upper"}
             yield self._entry(part, "feature", "lip_lower" if lower else "lip_upper", feature="M", **line)
         elif role == "teeth":
             yield self._entry(part, "feature", "teeth", feature="M", line="upper", layer="inner", **self._clip())
         elif role == "tongue":
-            yield self._entry(part, "free", "tongue", **{"with": "MB"}, feature="M", layer="inner", **self._clip())
+            yield self._entry(
+                part, "point", "tongue", **{"with": "MB"}, feature="M", layer="inner", drivers=[self._raise_tongue()],
+                **self._clip(),
+            )  # fmt: skip
 
     def _clip(self) -> Entry:
         return {"clip": "mouth"} if "mouth" in self._ids else {}
@@ -185,14 +193,15 @@ class _Maker:
         """What is seen when the mouth opens: the inside, teeth and tongue; and its line when it shuts."""
         mouth, found = self._rig.mouth, self._found
         base = next(iter(found.of("mouth")), None)
-        if base is not None:
+        if base is not None and not is_flat(base.piece):
             inside = base.piece.shape.color
             yield self._entry(base, "hole", "mouth", feature="M")
         else:
-            inside = self._inside()
+            inside = base.piece.shape.color if base is not None else self._inside()
             lines = [{"feature": "M"}, {"feature": "M", "line": "lower"}]
             yield self._add("mouth", "hole", self._palette.add(inside, "mouth"), feature="M", span=lines)
-        colorful = base is not None or bool(found.of("lip")) or any(not part.piece.stroked for part in found.of("face"))
+        solid = [*found.of("face"), *(part for part in (base,) if part is not None and not is_flat(part.piece))]
+        colorful = bool(found.of("lip")) or any(not part.piece.stroked for part in solid)
         if luminance(inside) < DARK and colorful:
             yield from self._teeth_and_tongue()
         if mouth.drawn == "open" and not found.of("mouth_ring", "lip"):
@@ -226,15 +235,19 @@ class _Maker:
             rx, ry = 0.27 * mouth.width, 0.42 * full
             top = lens.bottom[1] + 0.04 * full if mouth.drawn != "open" else lens.bottom[1] - 0.22 * full
             outline = ellipse(lens.bottom[0], top + ry, rx, ry)
-            touch = {"touch": {"feature": "M"}, "offset": round(0.12 * full, 2)}
-            drivers = [{"motor": "MB", "max": {"move": [0, round(0.6 * drop, 2)]}}, {"motor": "TG", "max": touch}]
+            drivers = [{"motor": "MB", "max": {"move": [0, round(0.6 * drop, 2)]}}, self._raise_tongue()]
             if mouth.drawn == "open":
                 drivers[0]["min"] = {"move": [0, round(self._rig.motors["MB"]["min"], 2)]}
-            self._rig.motors["TG"] = {}
             yield self._add(
                 "tongue", "point", self._palette.add(TONGUE, "tongue"), path=self._data(outline), drivers=drivers,
                 layer="inner", clip="mouth", feature="M",
             )  # fmt: skip
+
+    def _raise_tongue(self) -> Entry:
+        """What lifts the tip of a tongue to the upper teeth."""
+        self._rig.motors["TG"] = {}
+        full = self._rig.motors["MB"]["max"] + self._rig.mouth.lens.opening
+        return {"motor": "TG", "max": {"touch": {"feature": "M"}, "offset": round(0.12 * full, 2)}}
 
     def _entry(self, part: Part, kind: str, label: str, **keys: Any) -> Entry:
         """The polygon of a part."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .svg_reader_outlines import Point
-from .toon_from_svg_guess import SIDES, Found, Part
+from .toon_from_svg_guess import SIDES, Found, Part, is_flat
 from .toon_from_svg_lenses import Lens, fit_lens, lens_around
 from .toon_from_svg_pieces import Box, join
 
@@ -120,7 +120,8 @@ def _fit_eye(found: Found, side: str) -> Eye:
 
 def _fit_mouth(found: Found) -> Mouth:
     lips = found.of("lip")
-    if base := found.of("mouth"):
+    base = [part for part in found.of("mouth") if not is_flat(part.piece)]
+    if base:
         lens = fit_lens(base[0].piece.contours, closed=True)
         inside = found.of("teeth", "tongue")
         drawn = "thin" if lens.opening < THIN * lens.box.width and not inside else "open"
@@ -133,7 +134,7 @@ def _fit_mouth(found: Found) -> Mouth:
         middle = (box.x, height)
         lens, drawn = Lens(outer.left, outer.right, middle, middle, (2.0, 1.0)), "lips"
     else:
-        lines = found.of("mouth_line", "mouth_ring")
+        lines = found.of("mouth_line", "mouth_ring") or found.of("mouth")
         main = max(lines, key=lambda part: part.piece.box.width).piece
         lens = fit_lens(main.contours, closed=main.ring)
         drawn = "open" if main.ring and lens.opening > THIN * lens.box.width else "line"

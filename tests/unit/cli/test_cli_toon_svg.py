@@ -56,3 +56,19 @@ def test_a_mistake_is_told_and_nothing_is_written(
     assert main(["toon", "from-svg", str(DRAWINGS / drawing), "-o", out, *more]) == 2
     assert wanted in capfd.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_face_becomes_a_drawing_that_becomes_a_face(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    drawing, back = tmp_path / "olav.svg", tmp_path / "back.toon.json"
+    assert main(["toon", "to-svg", "toon:olav", "-o", str(drawing), "--preset", "smile"]) == 0
+    assert main(["toon", "from-svg", str(drawing), "-o", str(back)]) == 0
+    assert f"{drawing}: " in capfd.readouterr().err
+    assert load_face(back).name
+
+
+def test_only_drawn_faces_become_drawings(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["toon", "to-svg", "head", "-o", str(tmp_path / "a.svg")]) == 2
+    assert "is no drawn face" in capfd.readouterr().err
+    assert main(["toon", "to-svg", "toon:olav", "-o", str(tmp_path / "a.png")]) == 2
+    assert "ends in .svg" in capfd.readouterr().err
+    assert not list(tmp_path.iterdir())
