@@ -185,10 +185,15 @@ def _names(vocabulary_name: str, face: Face, pose: Pose, scene: Scene, shots: _S
     for name, rows in moving_rows(table).items():
         first = table[rows[0]]
         if first.name in played:
-            values = {**companions(vocabulary_name, first.name), **dict.fromkeys(rows, first.high)}
-            number = shots.number(pose_from(vocabulary_name, values, face, pose), scene)
             both = first.doc.replace(" left ", " ") if len(rows) > 1 else first.doc
-            groups.setdefault(first.group, []).append(Block(name, "", (number,), (both,)))
+            # What rests between its ends is shown at both.
+            ends = {"low end": first.low, both: first.high} if first.default > first.low else {both: first.high}
+            beside = companions(vocabulary_name, first.name)
+            posed = (
+                pose_from(vocabulary_name, {**beside, **dict.fromkeys(rows, end)}, face, pose) for end in ends.values()
+            )
+            block = Block(name, "", tuple(shots.number(each, scene) for each in posed), tuple(ends))
+            groups.setdefault(first.group, []).append(block)
     return tuple(Section(group, tuple(blocks)) for group, blocks in groups.items())
 
 
