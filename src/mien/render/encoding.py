@@ -16,7 +16,7 @@ from .pixels import ONE
 @kernel()
 def fill(values, value):
     """Make all values this one."""
-    for x in range(len(values)):
+    for x in range(np.uint64(len(values))):
         values[x] = value
 
 

@@ -50,7 +50,7 @@ def _paint_run(samples, color, share):
     if share == ONE:
         fill(samples, color)
     elif share > 0:
-        for x in range(len(samples)):
+        for x in range(np.uint64(len(samples))):
             samples[x] = _blend(samples[x], color, share)
 
 
@@ -60,15 +60,16 @@ def _paint_row(samples, color, alpha, cells, touched, runs, left, right):
     area, share = 0.0, 0
     x = left
     for k in range(runs):
-        first, end = min(touched[k, 0], right), touched[k, 1]
+        first, end = max(x, touched[k, 0]), touched[k, 1]
         _paint_run(samples[x:first], color, share)
         for x in range(first, min(end, right)):
             area += cells[x]
             share = (_share(area) * alpha) >> BITS
             if share > 0:
                 samples[x] = _blend(samples[x], color, share)
-        fill(cells[first:end], 0.0)
-        x = min(end, right)
+        for x in range(first, end):
+            cells[x] = 0.0
+        x = max(first, min(end, right))
     _paint_run(samples[x:right], color, share)
 
 
@@ -78,40 +79,56 @@ def _mask_row(shares, cells, touched, runs, left, right):
     area, share = 0.0, 0
     x = left
     for k in range(runs):
-        first, end = min(touched[k, 0], right), touched[k, 1]
+        first, end = max(x, touched[k, 0]), touched[k, 1]
         fill(shares[x:first], np.uint16(share))
         for x in range(first, min(end, right)):
             area += cells[x]
             share = _share(area)
             shares[x] = share
-        fill(cells[first:end], 0.0)
-        x = min(end, right)
+        for x in range(first, end):
+            cells[x] = 0.0
+        x = max(first, min(end, right))
     fill(shares[x:right], np.uint16(share))
 
 
 @kernel()
-def _clip_row(shares, mask, kind, left, right):
-    """Change the shares of a path in columns left:right by what a mask has there."""
+def _clip_row(shares, mask, kind):
+    """Change the shares of a path by what a mask has there."""
+    one, bits = np.uint32(ONE), np.uint32(BITS)
     if kind == INSIDE:
-        for x in range(left, right):
-            shares[x] = (np.int32(shares[x]) * np.int32(mask[x])) >> BITS
+        for x in range(np.uint64(len(shares))):
+            shares[x] = np.uint32(shares[x]) * np.uint32(mask[x]) >> bits
     elif kind == OUTSIDE:
-        for x in range(left, right):
-            shares[x] = (np.int32(shares[x]) * (ONE - np.int32(mask[x]))) >> BITS
+        for x in range(np.uint64(len(shares))):
+            shares[x] = np.uint32(shares[x]) * (one - np.uint32(mask[x])) >> bits
     else:
-        for x in range(left, right):
+        for x in range(np.uint64(len(shares))):
             if shares[x] > 0:
-                shares[x] += ((ONE - np.int32(shares[x])) * np.int32(mask[x])) >> BITS
+                shares[x] += (one - np.uint32(shares[x])) * np.uint32(mask[x]) >> bits
 
 
 @kernel()
-def _paint_shares(samples, color, alpha, shares, left, right):
-    for x in range(left, right):
-        share = (np.int64(shares[x]) * alpha) >> BITS
-        if share == ONE:
-            samples[x] = color
-        elif share > 0:
-            samples[x] = _blend(samples[x], color, share)
+def _paint_shares(samples, color, alpha, shares):
+    """Blend a colour over all samples, each by its own share."""
+    x, width = 0, len(samples)
+    while x < width:
+        share = shares[x]
+        first = x
+        while x < width and shares[x] == share:
+            x += 1
+        _paint_run(samples[first:x], color, np.int64(share) * alpha >> BITS)
+
+
+@kernel()
+def _encode_runs(samples, codes, opaque, out):
+    """What ``encode_row`` says, once for all pixels in a row that are alike: a drawing is mostly flat."""
+    x, width = 0, len(samples)
+    while x < width:
+        first, sample = x, samples[x]
+        while x < width and samples[x] == sample:
+            x += 1
+        encode_row(samples[first : first + 1], codes, opaque, out[first : first + 1])
+        fill(out[first + 1 : x], out[first])
 
 
 @kernel(
@@ -183,11 +200,10 @@ def fill_bands(
                 for c in range(paths[p, CLIPS], paths[p, CLIPS_END]):
                     mask = clips[c, 0]
                     if masks[mask, FIRST] <= row < masks[mask, END]:
-                        _clip_row(
-                            shares, masked[mask, row - top], clips[c, 1], max(left, masks[mask, LEFT]),
-                            min(right, masks[mask, RIGHT]),
-                        )  # fmt: skip
-                _paint_shares(samples[row - top], color, alpha, shares, left, right)
+                        begin, stop = max(left, masks[mask, LEFT]), min(right, masks[mask, RIGHT])
+                        if begin < stop:
+                            _clip_row(shares[begin:stop], masked[mask, row - top, begin:stop], clips[c, 1])
+                _paint_shares(samples[row - top, left:right], color, alpha, shares[left:right])
         for row in range(top, bottom):
             opaque = behind[row] >> np.uint64(48) == np.uint64(ONE)
-            encode_row(samples[row - top], codes, opaque, out[row])
+            _encode_runs(samples[row - top], codes, opaque, out[row])

@@ -262,7 +262,7 @@ def fill_buffers(width: int, edges: int, masks: int) -> tuple[NDArray[np.generic
     return (
         np.empty((BAND_ROWS, width), dtype=np.uint64),
         np.zeros(width + 2),
-        np.empty((width // 2 + 2, 2), dtype=np.int32),
+        np.empty((edges, 2), dtype=np.int32),
         np.empty(BAND_ROWS, dtype=np.int32),
         np.empty(edges, dtype=np.int32),
         np.empty(edges, dtype=np.int32),

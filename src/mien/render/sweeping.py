@@ -96,63 +96,55 @@ def list_edges(edges, begin, stop, first, end, heads, following):
 
 
 @kernel()
-def _touch(touched, count, first, end):
-    """One more run of cells first:end among ``count`` that lie in order and apart; how many there are then."""
-    k = count
-    while k > 0 and touched[k - 1, 0] > first:
-        k -= 1
-    if k > 0 and touched[k - 1, 1] >= first:
-        k -= 1
-        touched[k, 1] = max(touched[k, 1], end)
-    else:
-        for m in range(count, k, -1):
-            touched[m, 0], touched[m, 1] = touched[m - 1, 0], touched[m - 1, 1]
-        touched[k, 0], touched[k, 1] = first, end
-        count += 1
-    last = k + 1
-    while last < count and touched[last, 0] <= touched[k, 1]:
-        touched[k, 1] = max(touched[k, 1], touched[last, 1])
-        last += 1
-    gone = last - k - 1
-    if gone > 0:
-        for m in range(last, count):
-            touched[m - gone, 0], touched[m - gone, 1] = touched[m, 0], touched[m, 1]
-    return count - gone
+def _touch(touched, run, runs, first, end):
+    """Widen a run of cells to first:end; how many runs there are then.
+
+    A run is of the first border of an area in a row, of the second, and so on: they begin in order in every slab.
+    """
+    if run < runs:
+        touched[run, 0], touched[run, 1] = min(touched[run, 0], first), max(touched[run, 1], end)
+        return runs
+    touched[run, 0], touched[run, 1] = first, end
+    return run + 1
 
 
 @kernel()
-def _add_edge(cells, touched, count, left, right, a, z, height):
-    """Note the area to the right of an edge from a to z across; ``height`` is negative where an area ends."""
+def _add_edge(cells, left, right, a, z, height):
+    """Note the area to the right of an edge from a to z across; the cells that may have changed.
+
+    ``height`` is negative where an area ends.
+    """
     if a > z:
         a, z = z, a
     if a >= right:
-        return count
+        return right, right
     if z <= left:
         cells[left] += height
-        return _touch(touched, count, left, left + 1)
+        return left, left + 1
+    start = int(max(a, float(left)))
     if a < left:
         share = (left - a) / (z - a)
         cells[left] += height * share
-        height, a, count = height * (1.0 - share), float(left), _touch(touched, count, left, left + 1)
+        height, a = height * (1.0 - share), float(left)
     if z > right:
         height, z = height * ((right - a) / (z - a)), float(right)
-    first, last = int(a), int(z)
-    if first == last:
-        inside = (a + z) * 0.5 - first
-        cells[first] += height * (1.0 - inside)
-        cells[first + 1] += height * inside
+    last = int(z)
+    if start == last:
+        inside = (a + z) * 0.5 - start
+        cells[start] += height * (1.0 - inside)
+        cells[start + 1] += height * inside
     else:
         each = height / (z - a)
-        part = first + 1 - a
-        cells[first] += each * part * part * 0.5
-        cells[first + 1] += each * part * (1.0 - part * 0.5)
-        for x in range(first + 1, last):
+        part = start + 1 - a
+        cells[start] += each * part * part * 0.5
+        cells[start + 1] += each * part * (1.0 - part * 0.5)
+        for x in range(start + 1, last):
             cells[x] += each * 0.5
             cells[x + 1] += each * 0.5
         part = z - last
         cells[last] += each * part * (1.0 - part * 0.5)
         cells[last + 1] += each * part * part * 0.5
-    return _touch(touched, count, first, last + 2)
+    return start, last + 2
 
 
 @kernel()
@@ -164,9 +156,11 @@ def _sort(edges, ways, active, count, y, end, line, turns):
     for k in range(count):
         e = active[k]
         top, bottom = edges[e, TOP], edges[e, BOTTOM]
-        a = edges[e, X] + (min(max(y, top), bottom) - top) * edges[e, SLOPE]
-        z = edges[e, X] + (min(max(end, top), bottom) - top) * edges[e, SLOPE]
-        way = ways[e] if top <= y and bottom > y else 0
+        a = z = edges[e, X]
+        way = 0
+        if top <= y and bottom > y:
+            way = ways[e]
+            a, z = a + (y - top) * edges[e, SLOPE], a + (end - top) * edges[e, SLOPE]
         m = k
         while m > 0 and (a < line[m - 1, 0] or (a == line[m - 1, 0] and z < line[m - 1, 1])):
             line[m, 0], line[m, 1] = line[m - 1, 0], line[m - 1, 1]
@@ -196,7 +190,7 @@ def sweep_row(edges, ways, nonzero, row, left, right, head, following, active, c
         active, count: edges that come from above; those that go on below are left in it.
         line, turns: room for every edge.
         cells: (width + 2,) all 0 before; whoever reads them makes them so again.
-        touched: filled with the runs of cells that may not be 0.
+        touched: (E, 2) filled with the runs of cells that may not be 0, in the order in which they begin.
     """
     while head >= 0:
         active[count] = head
@@ -216,7 +210,7 @@ def sweep_row(edges, ways, nonzero, row, left, right, head, following, active, c
         if reach < 1.0 and end - y > LEAST:
             end = min(end, y + max((end - y) * reach, LEAST))
             _sort(edges, ways, active, count, y, end, line, turns)
-        winding = 0
+        winding = run = 0
         for k in range(count):
             if turns[k] != 0:
                 before = winding
@@ -227,8 +221,13 @@ def sweep_row(edges, ways, nonzero, row, left, right, head, following, active, c
                     was_inside, is_inside = before & 1 != 0, winding & 1 != 0
                 if was_inside != is_inside:
                     height = end - y if is_inside else y - end
-                    runs = _add_edge(cells, touched, runs, left, right, line[k, 0], line[k, 1], height)
+                    first, behind = _add_edge(cells, left, right, line[k, 0], line[k, 1], height)
+                    runs = _touch(touched, run, runs, first, behind)
+                    run += 1
         y = end
+    # Edges that cross in the lowest of slabs may have begun one before the other.
+    for run in range(runs - 1, 0, -1):
+        touched[run - 1, 0] = min(touched[run - 1, 0], touched[run, 0])
     kept = 0
     for k in range(count):
         if edges[active[k], BOTTOM] > floor:

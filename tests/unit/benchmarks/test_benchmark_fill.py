@@ -28,7 +28,7 @@ def test_its_drawing_is_seeded_and_has_holes_and_clips() -> None:
 
 
 def test_an_error_is_that_of_the_area() -> None:
-    scene = Scene(size_px=(fill.SIDE_PX,) * 2, background=fill.CLEAR)
+    scene = Scene(size_px=(fill.SIDE_PX,) * 2, background=((0.0,) * 4,) * 2)
 
     def paler(drawing: fill.Drawing) -> np.ndarray:
         picture = draw_drawing(drawing, scene)
