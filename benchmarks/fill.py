@@ -3,8 +3,8 @@
 Ours and cairo (pycairo) fill the same 60 polygons at 1024 x 1024, one thread each, in turn, round after round, in the
 processor time of that thread; the median round counts. Time goes from outlines in NumPy to finished pixels. pycairo is
 given each outline point by point, as it has no other way, and once more with paths that it has made before
-(`append_path`), which leaves out what Python costs it. Ours blends in linear light, cairo in sRGB. With clips ours draws the same, half of
-the polygons inside or outside of regions that they share; it is compared with pycairo without.
+(`append_path`), which leaves out what Python costs it. Ours blends in linear light, cairo in sRGB. "With clips" ours
+draws half of the polygons inside or outside of regions that they share; it is compared with pycairo without.
 
 Error is that of the share of a pixel that one polygon covers, over all pixels that its outline crosses, against lines
 64 times as fine as pixels; a code is 1/255. pycairo is used where it is installed: apt install libcairo2-dev pkg-config
