@@ -15,6 +15,7 @@ import numpy as np
 
 from mien.core import Drawing, Face, MienError, Parameter, ParameterTable, Path, Pose, UnknownNameError
 
+from .gazing import Seen, what_is_seen
 from .polygons import Contours
 from .records import Floats
 from .solid_box import Box
@@ -84,6 +85,10 @@ class OnSolid(ToonFace):
         motion = Motion.of(*angles, (x, -y))
         contours = self._form.cut(self._grown([shape.contours(moment) for shape in self._shapes], pose))
         return self._on_egg(contours, motion, pose) if self.solid == "egg" else self._on_box(contours, motion, pose)
+
+    @cached_property
+    def _seen(self) -> tuple[Seen, Seen]:
+        return what_is_seen(self.character, solid=True)
 
     @cached_property
     def _form(self) -> Form:
