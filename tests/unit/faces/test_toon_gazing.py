@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mien import load_face
-from mien.core import exact
 from mien.faces.toon.gazing import (
     HALF_WIDTH_M,
     MOST_CURVED,
@@ -35,11 +34,6 @@ def drawn(name: str = "olav") -> ToonFace:
 def shares_of(face: ToonFace, **changes: float) -> dict[str, float]:
     pose = face.neutral
     return {code: pose[motors()[code].parameter] for code in face.character.motors} | changes
-
-
-@pytest.mark.parametrize("x", [0.0, 1e-9, 0.3, -1.0, 5.0, -50.0, 1e6])
-def test_the_arctangent(x: float) -> None:
-    assert exact.arctan(x) == pytest.approx(math.atan(x), abs=1e-15)
 
 
 def test_eyes_seem_to_turn_half_as_far_again() -> None:
