@@ -84,7 +84,8 @@ def test_a_mirrored_pose_is_exaggerated_in_the_mirror(table, data, amount):
 def test_what_speech_and_blinks_shut_stays_shut(name, amount):
     """A full closing channel on top of any expression: what it brings to 0 is 0 at every amount."""
     subject = face(name)
-    table, remap = subject.parameters, load_remap("channels", subject.family)
+    table = subject.parameters
+    remap = load_remap("channels", subject.family).on(table)
     for preset in subject.presets.values():
         if preset.kind != "expression":
             continue
@@ -102,7 +103,8 @@ def test_what_speech_and_blinks_shut_stays_shut(name, amount):
 def test_the_table_knows_every_closure_of_the_channels(name):
     """A row that a channel multiplies by 0 has rest there, or its table says that it is closed there."""
     subject = face(name)
-    table, remap = subject.parameters, load_remap("channels", subject.family)
+    table = subject.parameters
+    remap = load_remap("channels", subject.family).on(table)
     for channel in remap.from_names:
         for row, factor in remap.scale({channel: 1.0}).items():
             if factor == 0.0 and row in table and table[row].default != 0.0:
@@ -112,7 +114,8 @@ def test_the_table_knows_every_closure_of_the_channels(name):
 @pytest.mark.parametrize("name", PLAYED)
 def test_what_the_channels_turn_the_eyes_with_is_gaze(name):
     subject = face(name)
-    table, remap = subject.parameters, load_remap("channels", subject.family)
+    table = subject.parameters
+    remap = load_remap("channels", subject.family).on(table)
     aims = [row for row in remap.reached_by(c for c in ("eye_turn", "eye_nod") if c in remap.index) if row in table]
     assert aims
     assert {table[row].role for row in aims} == {"gaze"}

@@ -1,4 +1,4 @@
-"""``mien presets``: named expressions and palettes of a face."""
+"""``mien presets``: named expressions, gestures and palettes of a face."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ def presets(face: options.FaceName, as_json: options.Json = False) -> None:
                         "doc": preset.doc,
                         "source": preset.source,
                         "values": dict(preset.values),
+                        **({"keys": [[time_s, dict(values)] for time_s, values in preset.keys]} if preset.keys else {}),
                     }
                     for preset in subject.presets.values()
                 ],

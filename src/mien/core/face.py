@@ -13,13 +13,18 @@ from .parameters import ParameterTable, Pose
 
 @dataclass(frozen=True)
 class Preset:
-    """A named set of values: an expression or a palette."""
+    """A named set of values: an expression, a palette, what a hand does.
+
+    Attributes:
+        keys: of a move, when, seconds, and values; what the first leaves out rests, what a later one leaves out stays.
+    """
 
     name: str
     kind: str
     values: Mapping[str, float] = field(default_factory=dict)
     doc: str = ""
     source: str = ""
+    keys: tuple[tuple[float, Mapping[str, float]], ...] = ()
 
 
 @runtime_checkable

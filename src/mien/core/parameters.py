@@ -22,7 +22,7 @@ ROLES: Mapping[str, str] = MappingProxyType(
     {
         "motion": "expresses something, or speaks",
         "gaze": "aims the eyes at something",
-        "contact": "brings lips or teeth together",
+        "contact": "brings lips, teeth or fingers together",
         "shape": "who it is",
         "color": "a colour",
         "scene": "filled in by the scene",

@@ -78,9 +78,8 @@ def toon_from_svg(path: Path | str, name: str, tolerance: float = TOLERANCE) -> 
     found = find_face(drawing.path, size, pieces)
     rig = make_rig(found)
     palette = Palette()
-    behind = background or PAPER
-    ground = palette.add(behind, "background")
-    polygons = make_polygons(found, rig, palette, behind)
+    behind = palette.add(background or PAPER, "background")
+    polygons = make_polygons(found, rig, palette, size)
     face = found.face
     document = {
         "format": "mien-toon",
@@ -89,7 +88,7 @@ def toon_from_svg(path: Path | str, name: str, tolerance: float = TOLERANCE) -> 
         "doc": f"Made from {drawing.path.name}.",
         "mode": "extended",
         "size": list(size),
-        "background": ground,
+        "background": behind,
         "palette": palette.codes(),
         "head": {
             "center": [round(face.x, 2), round(face.y, 2)],

@@ -11,6 +11,7 @@ from mien.speech.mouth import MOUTH_CHANNELS
 from mien.timeline import Track
 from mien.vocab import Remap, pose_from
 
+from .gestures import gestures
 from .marks import Expression, MarkedText, Units
 
 EASE_S = 0.6
@@ -63,7 +64,7 @@ def check_marks(marked: MarkedText, face: Face) -> None:
     """
     for mark in marked.marks:
         if isinstance(mark.act, Expression):
-            known = [*_expressions(face), NEUTRAL]
+            known = [*_expressions(face), NEUTRAL, *gestures(face)]
             if mark.act.name not in known:
                 raise UnknownNameError(f"mark in {mark.where}:", mark.act.name, [*known, "look", "au"])
         elif isinstance(mark.act, Units):

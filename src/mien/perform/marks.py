@@ -1,9 +1,10 @@
 r"""Marks in a text: what a face does at a place, written between the words, and the words without them.
 
-``[smile]``, ``[smile 0.6]``, ``[neutral]``: an expression from there on. ``[au 1=0.5,2=0.5]``: action units from there
-on. ``[look left]``: a look. ``<break time="500ms"/>``: silence. ``<emphasis>so happy</emphasis>``, ``*happy*``: stress.
-``\[``, ``\<``, ``\*`` and ``\\`` stand for the signs themselves; so do a bracket that no letter follows (``[1]``), a
-``<`` that no letter or ``/`` follows, and a star that has no partner in its line.
+``[smile]``, ``[smile 0.6]``, ``[neutral]``: an expression from there on. ``[wave]``: what a hand does, of a face that
+has one. ``[au 1=0.5,2=0.5]``: action units from there on. ``[look left]``: a look. ``<break time="500ms"/>``: silence.
+``<emphasis>so happy</emphasis>``, ``*happy*``: stress. ``\[``, ``\<``, ``\*`` and ``\\`` stand for the signs
+themselves; so do a bracket that no letter follows (``[1]``), a ``<`` that no letter or ``/`` follows, and a star that
+has no partner in its line.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Expression:
-    """A preset of the face, 0..1 of it, from here on; ``neutral`` ends the one before."""
+    """A preset of the face or its hand, 0..1 of it, from here on; ``neutral`` ends the expression before."""
 
     name: str
     amount: float = 1.0

@@ -19,6 +19,7 @@ from mien.vocab import Remap, load_remap, weigh
 
 from .directions import Directions, follow_marks
 from .expressions import check_marks, express
+from .gestures import gesture, part_gestures
 from .marks import MarkedText
 from .marks_reader import parse_marks
 from .style import Style
@@ -78,9 +79,9 @@ def perform(
 
     Marks in the script of the speech (``parse_marks``) are followed.
 
-    Layers, lowest first: ``idle`` (sway), ``gaze`` (glances and looks), ``expression`` (emotion, marks), ``speech``
-    (mouth, nods, brows) are added up; ``shut`` multiplies, so that blinks shut the eyes and p, b, m the lips whatever
-    lies beneath; ``direct`` is free for what is set by hand.
+    Layers, lowest first: ``idle`` (sway), ``gaze`` (glances and looks), ``expression`` (emotion, marks), ``hand``
+    (where marks ask for it), ``speech`` (mouth, nods, brows) are added up; ``shut`` multiplies, so that blinks shut the
+    eyes and p, b, m the lips whatever lies beneath; ``direct`` is free for what is set by hand.
 
     Args:
         speech: words, phones and sound, with the script where it has marks.
@@ -105,11 +106,14 @@ def perform(
     directions = replace(asked, glances=tuple(sorted([*asked.glances, *glances], key=lambda glance: glance.start_s)))
     take = _Take(speech, measure_prosody(speech.sound, speech.words, speech.phones), directions, length_s, seed, style)
     lids, mouth = _lids(take), articulate(speech.phones, style)
-    expression = express(face, remap, directions.expressions, length_s, emotion=emotion, amount=emotion_amount)
+    signs, shown = part_gestures(face, directions.expressions)
+    expression = express(face, remap, shown, length_s, emotion=emotion, amount=emotion_amount)
+    hand = gesture(face, signs, length_s)
     layers = (
         Layer("idle", "add", _play(remap, {**_sway(take), **lids})),
         Layer("gaze", "add", _play(remap, _gaze(take))),
         Layer("expression", "add", expression),
+        *([Layer("hand", "add", hand)] if hand else []),
         Layer("speech", "add", _play(remap, {**mouth, **_accents(take)})),
         Layer("shut", "multiply", _shut(remap, {**mouth, **lids})),
         Layer("direct", "replace", {}),

@@ -117,7 +117,7 @@ def test_all_motors_of_the_paper_are_there_and_move_something(name: str) -> None
         base = {"MB": 0.6} if code == "TG" else {}
         rest = face.shape(pose(face, **base))
         for end in (-1.0, 1.0):
-            if code in ("TG", "HY", "HI", "HO", "MT", "MB") and end < 0.0:
+            if code in ("TG", "HY", "HI", "HM", "HO", "HP", "MT", "MB") and end < 0.0:
                 continue  # rest is their minimum
             if (
                 motors()[code].unit == "share"

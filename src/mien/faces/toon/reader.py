@@ -14,7 +14,9 @@ from typing import Any
 from mien.core import LoadError, MienError, UnknownNameError
 
 from .fields import Fields
+from .hands import PART, gestures_of, own_gestures, shared_hand
 from .lines import ENDS
+from .motor_values import motor_values
 from .motors import motors, paper_codes
 from .outlines import parse_path, polygon_outline, same_pieces
 from .records import (
@@ -121,8 +123,20 @@ def _character(fields: Fields) -> Character:
             raise fields.error("motors", f"want limits of {code!r}, one of the 21 motors, but there are none")
     head = _head(fields.inner("head"))
     reader = _Polygons(mode, palette, features, limits)
+    asked = fields.inner("hand") if "hand" in fields.keys else None
+    if asked is not None and mode == "strict":
+        raise fields.error("hand", "a strict face has none — the paper draws faces")
+    hand = shared_hand(asked, reader) if asked is not None else None
+    if hand is not None:
+        limits.update(hand.limits)
     parts = {name: tuple(reader.drivers(each)) for name, each in fields.lists("parts")}
     polygons = tuple(reader.polygon(each, parts) for each in fields.items("polygons"))
+    if hand is not None:
+        if PART in parts:
+            raise fields.error("parts", f"{PART!r} is the part of the shared hand — give this one another name")
+        parts[PART] = hand.drivers(reader)
+        polygons += tuple(hand.polygons(reader, parts))
+    own = tuple(own_gestures(asked, limits)) if asked is not None else ()
     _check_clips(polygons, fields)
     character = Character(
         fields.text("name"),
@@ -138,9 +152,12 @@ def _character(fields: Fields) -> Character:
         fields.text("license", ""),
         {name: dict(_variant(each, palette)) for name, each in fields.group("palettes")},
         parts,
-        {name: dict(_expression(each, limits)) for name, each in fields.group("expressions")},
+        {name: motor_values(each, limits) for name, each in fields.group("expressions")},
         dict(_proportions(fields.inner("proportions"))) if "proportions" in fields.keys else {},
+        gestures_of(limits, own),
     )
+    if asked is not None:
+        asked.done()
     fields.done()
     return character
 
@@ -164,18 +181,6 @@ def _variant(fields: Fields, palette: Mapping[str, str]) -> Iterator[tuple[str, 
         if name not in palette:
             raise UnknownNameError(f"{fields.place}: colour", name, palette)
         yield name, _color(fields, name)
-
-
-def _expression(fields: Fields, limits: Mapping[str, Limits]) -> Iterator[tuple[str, float]]:
-    for code in fields.keys:
-        if code not in limits:
-            raise UnknownNameError(f"{fields.place}: motor", code, limits)
-        low, high = (limits[code].low_deg, limits[code].high_deg) if motors()[code].unit == "deg" else (0.0, 1.0)
-        low = -1.0 if motors()[code].unit == "signed" else low
-        value = fields.number(code)
-        if not low <= value <= high:
-            raise fields.error(code, f"{value:g} is out of range — it goes from {low:g} to {high:g}")
-        yield code, value
 
 
 def _proportions(fields: Fields) -> Iterator[tuple[str, tuple[float, float]]]:

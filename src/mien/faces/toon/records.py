@@ -212,6 +212,28 @@ class Polygon:
     opacity: float = 1.0
 
 
+Values = Mapping[str, float]
+"""P_ctrl or degrees by motor code."""
+
+
+@dataclass(frozen=True)
+class Gesture:
+    """What a hand can do: a pose, or a move through several.
+
+    Attributes:
+        name: what marks call it.
+        keys: when, seconds, and values by motor code; a pose has one key, at 0. What the first leaves out rests, and
+            what a later one leaves out stays.
+        doc: what it looks like.
+        source: where it comes from.
+    """
+
+    name: str
+    keys: tuple[tuple[float, Values], ...]
+    doc: str = ""
+    source: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Character:
     """A drawn face as its file describes it."""
@@ -229,5 +251,6 @@ class Character:
     license: str = ""
     palettes: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     parts: Mapping[str, tuple[Driver, ...]] = field(default_factory=dict)
-    expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    expressions: Mapping[str, Values] = field(default_factory=dict)
     proportions: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    gestures: tuple[Gesture, ...] = ()

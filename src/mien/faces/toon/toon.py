@@ -16,7 +16,6 @@ import numpy as np
 
 from mien.core import Drawing, ParameterTable, Path, Pose, Preset, Region
 
-from .gazing import Seen, compensate, what_is_seen
 from .lines import Moment, rest_of, resting_share
 from .motors import motors
 from .polygons import Contours, Shape
@@ -56,7 +55,10 @@ class ToonFace:
     @cached_property
     def presets(self) -> Mapping[str, Preset]:
         """Expressions of the family, or the character's own, and its palettes."""
-        return {preset.name: preset for preset in (*_expressions(self.character), *_palettes(self.character))}
+        return {
+            preset.name: preset
+            for preset in (*_expressions(self.character), *_gestures(self.character), *_palettes(self.character))
+        }
 
     @property
     def unsubdivided(self) -> ToonFace:
@@ -71,15 +73,7 @@ class ToonFace:
 
     def moment(self, pose: Pose) -> Moment:
         """What the motors do in a pose."""
-        shares = {code: pose[motors()[code].parameter] for code in self.character.motors}
-        if amount := pose["gaze.compensation"]:
-            viewer = (pose["viewer.x"], pose["viewer.y"], pose["viewer.z"])
-            shares = compensate(shares, self.character, self._seen, amount, viewer, pose["screen.curvature"])
-        return Moment(self.character, shares)
-
-    @cached_property
-    def _seen(self) -> tuple[Seen, Seen]:
-        return what_is_seen(self.character)
+        return Moment(self.character, {code: pose[motors()[code].parameter] for code in self.character.motors})
 
     @cached_property
     def _shapes(self) -> tuple[Shape, ...]:
@@ -206,6 +200,19 @@ def _expressions(character: Character) -> list[Preset]:
         doc = found[name].doc if name in found else f"{name.capitalize()}, as {character.name} was drawn."
         found[name] = Preset(name, "expression", values, doc, OWN)
     return list(found.values())
+
+
+def _gestures(character: Character) -> list[Preset]:
+    """What its hand does: poses, and moves, which a picture shows at their first key."""
+    presets = []
+    for each in character.gestures:
+        keys = tuple(
+            (time_s, {motors()[code].parameter: value for code, value in values.items()})
+            for time_s, values in each.keys
+        )
+        kind, moves = ("move", keys) if len(keys) > 1 else ("hand", ())
+        presets.append(Preset(each.name, kind, keys[0][1], each.doc, each.source, moves))
+    return presets
 
 
 def share_at(code: str, character: Character, amount: float) -> float:
