@@ -18,7 +18,16 @@ SECTIONS = {
     "Faces": ("hero", "three_views", "people", "strangers", "shading"),
     "Expression": ("expressions", "presets", "mouth", "gaze"),
     "Motion": ("blink", "jaw", "strip", "filmstrip", "curves"),
-    "Drawn faces": ("toons", "toon_presets", "toon_mouths", "toon_strip", "toon_turns", "toon_palettes"),
+    "Drawn faces": (
+        "toons",
+        "toon_presets",
+        "toon_mouths",
+        "toon_strip",
+        "toon_turns",
+        "toon_solids",
+        "toon_motors",
+        "toon_palettes",
+    ),
     "Parke's pictures": (
         "one_light",
         "figure_1972",

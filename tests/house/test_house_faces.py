@@ -23,6 +23,7 @@ UNITS = {
     "mm",
     "eyeball radius",
     "drawing unit",
+    "1/m",
 }
 
 every_face = pytest.mark.parametrize("name", FACE_NAMES)

@@ -10,6 +10,7 @@ import typer
 from . import options
 
 if TYPE_CHECKING:
+    from mien.vocab import Link
     from mien.vocab.loss import Loss
 
 COMPARED_WITH = "head"
@@ -136,7 +137,7 @@ def _show_loss(name: str, to: str, as_json: bool) -> None:
         table = vocabulary(name)
         print_table(
             ("name", "cannot be shown", "instead"),
-            [(loss.name, table[loss.name].doc, _stand_ins(loss) or "nothing") for loss in lost],
+            [(loss.name, table[loss.name].doc, ", ".join(map(_done, loss.stand_ins)) or "nothing") for loss in lost],
         )
 
 
@@ -147,7 +148,9 @@ def _described(loss: Loss, unit: str) -> dict[str, object]:
         f"longest_{unit}": round(loss.longest, 2),
         "nearest": {name: round(share, 3) for name, share in loss.nearest.items()},
         "angle_deg": round(loss.angle_deg, 1),
-        "stand_ins": {name: round(amount, 3) for name, amount in loss.stand_ins.items()},
+        "stand_ins": [
+            {"parameter": link.parameter, "gain": round(link.gain, 3), "blend": link.blend} for link in loss.stand_ins
+        ],
     }
 
 
@@ -159,5 +162,5 @@ def _compared(loss: Loss, shares: bool) -> Sequence[str]:
     return f"{loss.angle_deg:.1f}", " + ".join(names)
 
 
-def _stand_ins(loss: Loss) -> str:
-    return ", ".join(f"{name} {amount:+.2g}" for name, amount in loss.stand_ins.items())
+def _done(link: Link) -> str:
+    return f"{link.parameter} {f'×{1.0 + link.gain:.2g}' if link.blend == 'multiply' else f'{link.gain:+.2g}'}"

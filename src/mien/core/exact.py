@@ -76,6 +76,16 @@ def cos(angle: ArrayLike) -> NDArray[np.float64]:
     return sin_cos(angle)[1]
 
 
+def arctan(x: float) -> float:
+    """The angle in radians, between -pi/2 and pi/2, whose tangent is x."""
+    for _ in range(4):  # Half the angle each time; after four times its tangent is below 0.1.
+        x = x / (1.0 + math.sqrt(1.0 + x * x))
+    square, total = x * x, 0.0
+    for k in range(10, -1, -1):
+        total = total * -square + 1.0 / (2 * k + 1)
+    return 16.0 * x * total
+
+
 def exp(x: ArrayLike) -> NDArray[np.float64]:
     """e to the power x, any shape; below -700 it is 0."""
     x = np.asarray(x, dtype=np.float64)

@@ -78,8 +78,9 @@ def toon_from_svg(path: Path | str, name: str, tolerance: float = TOLERANCE) -> 
     found = find_face(drawing.path, size, pieces)
     rig = make_rig(found)
     palette = Palette()
-    behind = palette.add(background or PAPER, "background")
-    polygons = make_polygons(found, rig, palette, size)
+    behind = background or PAPER
+    ground = palette.add(behind, "background")
+    polygons = make_polygons(found, rig, palette, behind)
     face = found.face
     document = {
         "format": "mien-toon",
@@ -88,7 +89,7 @@ def toon_from_svg(path: Path | str, name: str, tolerance: float = TOLERANCE) -> 
         "doc": f"Made from {drawing.path.name}.",
         "mode": "extended",
         "size": list(size),
-        "background": behind,
+        "background": ground,
         "palette": palette.codes(),
         "head": {
             "center": [round(face.x, 2), round(face.y, 2)],

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from mien.core import LoadError
 
+from .toon_from_svg_lenses import fit_lens
 from .toon_from_svg_pieces import Box, Piece, area, contrast, join, luminance
 
 SIDES = ("R", "L")
@@ -37,6 +38,9 @@ MOUTH_AT, MOUTH_SPREAD = 0.74, 0.17
 
 FLAT = 0.01
 """Area of a shape without height, as a share of the square of its width."""
+
+THIN = 0.2
+"""A mouth is drawn shut where its height is less than this share of its width."""
 
 LEAST = 0.08
 """Of the score that a face as in most drawings has: what is less sure is not taken for eyes or a mouth."""
@@ -284,6 +288,11 @@ class _Search:
             elif piece.role == "lip":
                 self._take([piece], "lip")
         rest = [piece for piece in pieces if piece not in self.roles]
+        lines = [piece for piece in rest if _is_thin(piece)]
+        # With what is between shut lips, or alone, narrow shapes are the lips; with teeth in it one is an opening.
+        if len(lines) == len(pieces) or any(map(is_flat, rest)):
+            self._take(lines, "mouth_line")
+        rest = [piece for piece in rest if piece not in self.roles]
         filled = sorted((piece for piece in rest if not piece.stroked), key=_size, reverse=True)
         if filled:
             base = filled[0]
@@ -344,7 +353,15 @@ class _Search:
 
 def is_flat(piece: Piece) -> bool:
     """Whether a shape has no height to speak of, as the opening of a shut mouth."""
-    return piece.box.area > 0.0 and abs(area(piece.points)) < FLAT * piece.box.width**2
+    return not piece.stroked and abs(area(piece.points)) < FLAT * piece.box.width**2
+
+
+def _is_thin(piece: Piece) -> bool:
+    """Whether a shape is so narrow that it stands for the line between lips."""
+    if piece.stroked or is_flat(piece) or luminance(piece.shape.color) > LIGHT:
+        return False
+    lens = fit_lens(piece.contours, closed=True)
+    return lens.opening < THIN * lens.box.width
 
 
 def _could_be_head(piece: Piece, size: tuple[float, float]) -> bool:

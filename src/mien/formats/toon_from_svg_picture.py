@@ -157,7 +157,12 @@ def _dots(face: ToonFace) -> Iterator[_Dot]:
                     dx, dy = motor.direction
                     low, high = limits.low, limits.high
                     ranges.append(((x + dx * low, y + dy * low), (x + dx * high, y + dy * high)))
-            yield _Dot(name, feature.name, (x, y), tuple(ranges))
+            # Where lips are shut, two points lie in one place.
+            alike = [other for other, place in feature.points.items() if place == (x, y)]
+            if name == alike[-1]:
+                yield _Dot(" ".join(alike), feature.name, (x, y), tuple(ranges))
+            elif ranges:
+                yield _Dot("", feature.name, (x, y), tuple(ranges))
 
 
 def _write(pen: ImageDraw.ImageDraw, at: Pixel, text: str, color: Color = INK) -> None:

@@ -12,7 +12,7 @@ from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette, mix
 from .toon_from_svg_guess import Found, Part, is_flat
 from .toon_from_svg_lenses import lens_outline
-from .toon_from_svg_pieces import PAPER, Box, Piece, contrast, luminance
+from .toon_from_svg_pieces import Box, Piece, contrast, luminance
 from .toon_from_svg_rig import Rig
 
 Entry = dict[str, Any]
@@ -45,9 +45,9 @@ LONG_FACE = 1.1
 """Height over width from which the chin goes down as the mouth opens; a ball keeps its shape."""
 
 
-def make_polygons(found: Found, rig: Rig, palette: Palette, size: tuple[float, float]) -> list[Entry]:
-    """The ``polygons`` of the file, in the order in which they are painted."""
-    maker = _Maker(found, rig, palette, size)
+def make_polygons(found: Found, rig: Rig, palette: Palette, behind: Paint) -> list[Entry]:
+    """The ``polygons`` of the file, in the order in which they are painted on a background."""
+    maker = _Maker(found, rig, palette, behind)
     entries = [entry for part in found.parts for entry in maker.entries(part)]
     return list(_keep_order([entry for entry in entries if entry]))
 
@@ -66,8 +66,8 @@ def _keep_order(entries: Sequence[Entry]) -> Iterator[Entry]:
 class _Maker:
     """Makes polygons and remembers ids, and which of the things that are drawn once are there."""
 
-    def __init__(self, found: Found, rig: Rig, palette: Palette, size: tuple[float, float]) -> None:
-        self._found, self._rig, self._palette, self._size = found, rig, palette, size
+    def __init__(self, found: Found, rig: Rig, palette: Palette, behind: Paint) -> None:
+        self._found, self._rig, self._palette, self._behind = found, rig, palette, behind
         self._ids: set[str] = set()
         self._done: set[str] = set()
         self._face_seen = False
@@ -82,6 +82,12 @@ class _Maker:
         elif role == "brow":
             yield self._entry(part, "feature", f"brow_{side}", feature=f"B{side}")
         elif role in ("face", "outline"):
+            if role == "face" and part.piece.ring and not self._face_seen:
+                # A face of lines is filled with what is behind it: so it has an inside, in which features lie.
+                ground = self._palette.add(self._behind)
+                yield self._add(
+                    "face", "face", ground, path=self._data(part.piece.shape.outline), **FACE, **self._chin()
+                )
             self._face_seen = True
             yield self._entry(part, "face", role, **FACE, **self._chin())
         elif role == "cheek":
@@ -148,14 +154,14 @@ class _Maker:
         ink = self._find_ink(self._rig.eyes[side].lens.box)
         return self._add(
             f"shut_{side}", "feature", self._palette.add(ink, "lash"), feature=f"E{side}", fade=f"E{side}",
-            stroke={"feature": f"E{side}"}, width=_brush(width), layer="inner",
+            stroke={"feature": f"E{side}"}, width=_brush(width, 0.6), layer="inner",
         )  # fmt: skip
 
     def _find_ink(self, eye: Box) -> Paint:
         """The colour of eyes and brows that is seen best on what lies behind an eye, the darkest of several."""
         parts = self._found.of("pupil", "white", "brow", "arc")
         behind = [part for part in self._found.parts if part.role in ("face", "") and not part.piece.stroked]
-        ground = next((part.piece.shape.color for part in reversed(behind) if part.piece.box.holds(eye)), PAPER)
+        ground = next((part.piece.shape.color for part in reversed(behind) if part.piece.box.holds(eye)), self._behind)
         colors = sorted((part.piece.shape.color for part in parts), key=luminance)
         return next((color for color in colors if contrast(color, ground) > SEEN), colors[0])
 
@@ -201,14 +207,14 @@ class _Maker:
             lines = [{"feature": "M"}, {"feature": "M", "line": "lower"}]
             yield self._add("mouth", "hole", self._palette.add(inside, "mouth"), feature="M", span=lines)
         solid = [*found.of("face"), *(part for part in (base,) if part is not None and not is_flat(part.piece))]
-        colorful = bool(found.of("lip")) or any(not part.piece.stroked for part in solid)
+        colorful = bool(found.of("lip")) or any(self._is_painted(part.piece) for part in solid)
         if luminance(inside) < DARK and colorful:
             yield from self._teeth_and_tongue()
         if mouth.drawn == "open" and not found.of("mouth_ring", "lip"):
             stroke = {"feature": "M"}
             yield self._add(
                 "mouth_shut", "feature", self._palette.add(inside, "mouth"), feature="M", stroke=stroke,
-                width=_brush(0.05 * mouth.width), layer="inner",
+                width=_brush(0.05 * mouth.width, 0.1), layer="inner",
             )  # fmt: skip
 
     def _inside(self) -> Paint:
@@ -216,16 +222,20 @@ class _Maker:
         if lips := self._found.of("lip"):
             return mix(lips[0].piece.shape.color, THROAT, 0.75)
         line = self._found.of("mouth_line", "mouth_ring")[0].piece.shape.color
-        painted = any(not part.piece.stroked for part in self._found.of("face"))
+        painted = any(self._is_painted(part.piece) for part in self._found.of("face"))
         return mix(line, THROAT, 0.5) if painted else line
+
+    def _is_painted(self, piece: Piece) -> bool:
+        """Whether a shape is filled, and not only with what is behind it, as in a drawing of lines."""
+        return not piece.stroked and contrast(piece.shape.color, self._behind) > 0.02
 
     def _teeth_and_tongue(self) -> Iterator[Entry]:
         mouth, found = self._rig.mouth, self._found
         lens, drop = mouth.lens, self._rig.motors["MB"]["max"]
         full = drop + lens.opening
         if not found.of("teeth") and mouth.drawn != "open":
-            high = round(lens.opening, 2)
-            low = [[-1, high], [0, round(lens.opening + 0.32 * drop, 2)], [1, high]]
+            high = round(mouth.lip, 2)
+            low = [[-1, high], [0, round(mouth.lip + 0.25 * drop, 2)], [1, high]]
             yield self._add(
                 "teeth", "feature", self._palette.add(TEETH, "teeth"), feature="M", layer="inner", clip="mouth",
                 span=[{"feature": "M", "offset": high},
@@ -233,7 +243,7 @@ class _Maker:
             )  # fmt: skip
         if not found.of("tongue"):
             rx, ry = 0.27 * mouth.width, 0.42 * full
-            top = lens.bottom[1] + 0.04 * full if mouth.drawn != "open" else lens.bottom[1] - 0.22 * full
+            top = lens.bottom[1] + mouth.lip + 0.04 * full if mouth.drawn != "open" else lens.bottom[1] - 0.22 * full
             outline = ellipse(lens.bottom[0], top + ry, rx, ry)
             drivers = [{"motor": "MB", "max": {"move": [0, round(0.6 * drop, 2)]}}, self._raise_tongue()]
             if mouth.drawn == "open":
@@ -277,9 +287,9 @@ class _Maker:
         return path_data(outline, lambda value: format_number(value, 2))
 
 
-def _brush(width: float) -> list[list[float]]:
-    """A stroke that is thinner at its ends."""
-    return [[0, round(0.6 * width, 2)], [0.5, round(width, 2)], [1, round(0.6 * width, 2)]]
+def _brush(width: float, ends: float) -> list[list[float]]:
+    """A stroke that is thinner at its ends, by a share of its width."""
+    return [[0, round(ends * width, 2)], [0.5, round(width, 2)], [1, round(ends * width, 2)]]
 
 
 def _clean(name: str) -> str:

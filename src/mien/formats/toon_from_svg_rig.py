@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .svg_reader_outlines import Point
-from .toon_from_svg_guess import SIDES, Found, Part, is_flat
+from .toon_from_svg_guess import SIDES, THIN, Found, Part, is_flat
 from .toon_from_svg_lenses import Lens, fit_lens, lens_around
 from .toon_from_svg_pieces import Box, join
 
@@ -22,9 +22,6 @@ SHUT_PROFILE = (2.0, 1.35)
 
 OPEN_PROFILE = (2.2, 1.6)
 """The lines of an open mouth that is drawn shut."""
-
-THIN = 0.2
-"""A mouth is drawn shut where its height is less than this share of its width."""
 
 HEAD_DEG = {"HH": 24, "HV": 14, "HT": 10}
 PUPIL_DEG = {"H": 30, "V": 20}
@@ -51,13 +48,14 @@ class Mouth:
 
     Attributes:
         lens: its lips.
-        drawn: ``line`` for a line, ``lips`` for two lips without anything between them, ``thin`` for a shape so narrow
-            that it is a line, ``open`` for an opening.
+        drawn: ``line`` for a line, ``lips`` for two lips without anything between them, ``open`` for an opening.
+        lip: how far its line reaches below the middle of it.
         room: how far the lower lip can go down before it meets the chin.
     """
 
     lens: Lens
     drawn: str
+    lip: float
     room: float
 
     @property
@@ -123,8 +121,7 @@ def _fit_mouth(found: Found) -> Mouth:
     base = [part for part in found.of("mouth") if not is_flat(part.piece)]
     if base:
         lens = fit_lens(base[0].piece.contours, closed=True)
-        inside = found.of("teeth", "tongue")
-        drawn = "thin" if lens.opening < THIN * lens.box.width and not inside else "open"
+        drawn, lip = "open", 0.0
     elif lips:
         box = join(part.piece.box for part in lips)
         uppers = [part for part in lips if not part.piece.lower] or lips
@@ -132,17 +129,18 @@ def _fit_mouth(found: Found) -> Mouth:
         seam = max((fit_lens(part.piece.contours, closed=True) for part in uppers), key=lambda lens: lens.bottom[1])
         height = seam.bottom[1] if len(lips) > 1 else 0.5 * (outer.top[1] + outer.bottom[1])
         middle = (box.x, height)
-        lens, drawn = Lens(outer.left, outer.right, middle, middle, (2.0, 1.0)), "lips"
+        lens, drawn, lip = Lens(outer.left, outer.right, middle, middle, (2.0, 1.0)), "lips", 0.0
     else:
         lines = found.of("mouth_line", "mouth_ring") or found.of("mouth")
         main = max(lines, key=lambda part: part.piece.box.width).piece
-        lens = fit_lens(main.contours, closed=main.ring)
+        lens = fit_lens(main.contours, closed=main.ring or not main.stroked)
+        lip = 0.5 * (main.shape.width or lens.opening)
         drawn = "open" if main.ring and lens.opening > THIN * lens.box.width else "line"
         if drawn == "line":
             middle = (lens.top[0], 0.5 * (lens.top[1] + lens.bottom[1]))
             lens = Lens(lens.left, lens.right, middle, middle, lens.profile)
     low = parts_box(found.of("mouth", "mouth_ring", "mouth_line", "lip")).bottom
-    return Mouth(lens, drawn, max(0.7 * (found.face.bottom - low), 0.02 * found.face.height))
+    return Mouth(lens, drawn, lip, max(0.7 * (found.face.bottom - low), 0.02 * found.face.height))
 
 
 def _add_brow(rig: Rig, found: Found, side: str) -> None:
@@ -207,9 +205,8 @@ def _add_mouth(rig: Rig, found: Found) -> None:
         rig.motors[f"M{side}H"] = _limits(0.26 * width, min(0.15 * width, 0.4 * room))
         down, up = max(0.14 * width, 1.7 * smile), max(0.12 * width, -1.5 * smile)
         rig.motors[f"M{side}V"] = _limits(min(down, most), min(up, most))
-    shut = {"open": lens.opening, "thin": 0.3 * lens.opening}.get(mouth.drawn, 0.0)
     widen = 0.05 if mouth.drawn == "open" else 0.16
-    rig.motors["MB"] = _limits(shut, min(widen * face.height + 0.1 * lens.opening, mouth.room))
+    rig.motors["MB"] = _limits(lens.opening, min(widen * face.height + 0.1 * lens.opening, mouth.room))
     rig.motors["MT"] = _limits(0.0, 0.02 * face.height)
 
 

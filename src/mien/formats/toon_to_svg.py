@@ -200,10 +200,10 @@ def _label(polygon: Polygon) -> str:
         case "mouth", "hole":
             return "mouth"
         case "mouth", "feature" if not inside:
+            if (polygon.closed and brush) or find_role((polygon.id,))[0] == "mouth":
+                return ""
             lower = "lower " if polygon.line == "lower" or (polygon.stroke and polygon.stroke.lower) else ""
-            return (
-                "" if polygon.closed and brush else f"{lower}mouth line" if len(polygon.width) == 1 else f"{lower}lip"
-            )
+            return f"{lower}mouth line" if len(polygon.width) == 1 else f"{lower}lip"
         case "mouth", _:
             return "tongue" if polygon.kind in ("point", "free") else "teeth"
         case "brow" | "pupil" as feature, _:

@@ -13,7 +13,7 @@ from mien.core.mesh import Points
 
 from .fields import angle_deg, displacement, longest
 from .loading import load_remap, next_step
-from .remap import FITS, whole, worst
+from .remap import FITS, Link, whole, worst
 from .vocabulary import vocabulary
 
 Matrix = NDArray[np.float64]
@@ -43,8 +43,8 @@ class Loss:
         nearest: the names that it is compared with, and how much of each: on a face the one other name that does most
             nearly the same, in another vocabulary the best combination.
         angle_deg: between its displacement field and that of ``nearest``; 0 where they do the same.
-        stand_ins: what takes its place, of ``stand-in``: parameters, or names of the vocabulary by whose way it goes,
-            with how much of each.
+        stand_ins: of ``stand-in``, what takes its place, on the parameters of the face or the names of the vocabulary
+            by whose way it goes.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Loss:
     longest: float = 0.0
     nearest: Mapping[str, float] = field(default_factory=dict)
     angle_deg: float = 90.0
-    stand_ins: Mapping[str, float] = field(default_factory=dict)
+    stand_ins: tuple[Link, ...] = ()
 
 
 def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
@@ -64,13 +64,13 @@ def loss_on(name: str, face: Face) -> tuple[Loss, ...]:
         UnknownNameError: there is no such vocabulary.
         MienError: there is no table for the vocabulary.
     """
-    fits, places = fits_on(name, face), _stand_ins(name, face)
+    fits, links = fits_on(name, face), _links(name, face)
     fields = {each: displacement(name, each, face) for each in fits}
     names, found = tuple(fields), {}
     for each, likeness in zip(names, _likeness(fields), strict=True):
         other = names[int(likeness.argmax())]
         angle = angle_deg(fields[each], fields[other])
-        stand_ins = places[each] if fits[each] == FITS[-1] else {}
+        stand_ins = tuple(link for link in links if fits[each] == FITS[-1] and whole(link.name) == each)
         found[each] = Loss(each, fits[each], longest(fields[each]), {other: 1.0}, angle, stand_ins)
     return tuple(found.get(each, Loss(each, MISSING)) for each in vocabulary(name).names)
 
@@ -99,14 +99,10 @@ def fits_on(name: str, face: Face) -> dict[str, str]:
     }
 
 
-def _stand_ins(name: str, face: Face) -> dict[str, dict[str, float]]:
-    """Name -> what it does to parameters, or to names of the vocabulary by whose way it goes."""
+def _links(name: str, face: Face) -> tuple[Link, ...]:
     step = next_step(name, face.family)
     remap = load_remap(name, step)
-    found: dict[str, dict[str, float]] = {}
-    for link in (remap.on(face.parameters) if step == face.family else remap).links:
-        found.setdefault(whole(link.name), {})[link.parameter] = link.gain
-    return found
+    return (remap.on(face.parameters) if step == face.family else remap).links
 
 
 def loss_to(name: str, other: str, face: Face) -> tuple[Loss, ...]:

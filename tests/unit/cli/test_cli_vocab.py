@@ -46,6 +46,20 @@ def test_loss_on_a_face_and_to_another_vocabulary(capfd: pytest.CaptureFixture[s
     assert (row["fit"], set(row["nearest"])) == ("exact", {"eyeLookOutLeft", "eyeLookInRight"})
 
 
+def test_loss_on_a_drawn_face_says_what_stands_in(capfd: pytest.CaptureFixture[str]) -> None:
+    lines = output(capfd, "vocab", "--loss", "facs", "toon:gus").splitlines()
+    heading = lines.index("What toon:gus cannot show of facs, and what stands in for it:")
+    assert lines[0].split()[2] == "px"
+    lost = {line.split()[0]: line for line in lines[heading + 2 :]}
+    assert lost["AU55"].endswith("nothing")
+    assert "mouth.bottom ×0" in lost["AU17"]
+    assert "eyelid.lower.left +0.4" in lost["AU6.left"]
+    rows = json.loads(output(capfd, "vocab", "--loss", "facs", "toon:gus", "--json"))["names"]
+    row = next(row for row in rows if row["name"] == "AU6.left")
+    assert row["longest_px"] > 5.0
+    assert row["stand_ins"][0]["parameter"] == "eyelid.lower.left"
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

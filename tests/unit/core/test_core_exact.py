@@ -37,6 +37,11 @@ def test_the_exponential_agrees_with_the_c_library(x):
     assert exact.exp(x) == pytest.approx(math.exp(x), rel=4 * EPSILON)
 
 
+@pytest.mark.parametrize("x", [0.0, 1e-9, 0.3, -1.0, 5.0, -50.0, 1e6])
+def test_the_arctangent_agrees_with_the_c_library(x):
+    assert exact.arctan(x) == pytest.approx(math.atan(x), abs=1e-15)
+
+
 @pytest.mark.parametrize(
     ("turns", "sine", "cosine"), [(0, 0, 1), (1, 1, 0), (2, 0, -1), (3, -1, 0), (-1, -1, 0), (4, 0, 1)]
 )

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 from functools import cache
 from importlib.resources import files
 
@@ -16,6 +17,7 @@ from mien.faces.toon.reader import parse_toon
 from mien.faces.toon.schema import toon_schema
 from mien.faces.toon.shipped import FOLDER, SUFFIX, toon_names
 from mien.faces.toon.starters import copied_text, starter_text
+from support import ROOT
 
 BASE = json.loads(starter_text("base"))
 STRICT = json.loads(starter_text("base", "strict"))
@@ -309,3 +311,10 @@ def test_starters_have_no_faults_and_the_name_asked_for(text):
     report = check_bytes(text.encode(), 80)
     assert report.faults == ()
     assert report.face.character.name == "kim"
+
+
+def test_the_face_in_the_documentation_has_no_faults():
+    page = (ROOT / "docs/toon-format.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```json\n(.*?)```", page, re.DOTALL)
+    assert check_bytes(example.encode(), 80).faults == ()
+    assert len(example.splitlines()) <= 32

@@ -76,15 +76,15 @@ def test_it_hardly_changes_by_a_hundredth_of_a_degree(name: str) -> None:
 def test_a_point_of_the_ball_goes_where_the_rotation_takes_it() -> None:
     # (60, 0) lies 80 before the middle of a ball of radius 100; 30 degrees to the own left, the right as seen.
     square = circle(60.0, 0.0, 0.01)
-    (seen,) = Egg(BALL, turned(30.0)).carry([square])
+    (seen,) = Egg(BALL, turned(30.0)).carry([[square]])[0]
     assert seen.mean(axis=0) == pytest.approx((60.0 * math.cos(math.pi / 6) + 40.0, 0.0), abs=1e-3)
-    (seen,) = Egg(BALL, turned(0.0, 30.0)).carry([circle(0.0, 60.0, 0.01)])
+    (seen,) = Egg(BALL, turned(0.0, 30.0)).carry([[circle(0.0, 60.0, 0.01)]])[0]
     assert seen.mean(axis=0) == pytest.approx((0.0, 60.0 * math.cos(math.pi / 6) + 40.0), abs=1e-3)
-    (seen,) = Egg(BALL, turned(0.0, 0.0, 90.0)).carry([circle(0.0, 60.0, 0.01)])
+    (seen,) = Egg(BALL, turned(0.0, 0.0, 90.0)).carry([[circle(0.0, 60.0, 0.01)]])[0]
     assert seen.mean(axis=0) == pytest.approx((60.0, 0.0), abs=1e-3)
     # (-60, 0), 53.1 degrees from the side of the ball, goes out of sight by more than that.
-    assert Egg(BALL, turned(-53.0)).carry([circle(-60.0, 0.0, 0.01)]) != []
-    assert Egg(BALL, turned(-53.3)).carry([circle(-60.0, 0.0, 0.01)]) == []
+    assert Egg(BALL, turned(-53.0)).carry([[circle(-60.0, 0.0, 0.01)]])[0] != []
+    assert Egg(BALL, turned(-53.3)).carry([[circle(-60.0, 0.0, 0.01)]])[0] == []
 
 
 def test_the_senses_are_those_of_the_modelled_head() -> None:
@@ -108,7 +108,7 @@ def test_what_is_seen_is_what_rays_hit(
 ) -> None:
     motion = turned(*angles)
     drawn = circle(*outline)
-    seen = Egg(BALL, motion).carry([drawn], back=back)
+    seen = Egg(BALL, motion).carry([[drawn]], back=back)[0]
     random = np.random.default_rng(3)
     x, y = random.uniform(-97.0, 97.0, (2, 1500))
     ahead = np.sqrt(np.maximum(100.0**2 - x * x - y * y, 0.0))
@@ -125,7 +125,7 @@ def test_what_is_seen_is_what_rays_hit(
 def test_the_whole_ball_is_filled_from_everywhere_when_the_drawing_goes_around() -> None:
     for angles in [(0.1, 0.0), (45.0, 10.0), (90.0, 0.0), (135.0, 60.0), (180.0, 0.0), (-91.0, -89.0)]:
         egg = Egg(BALL * INSIDE, turned(*angles))
-        seen = [*egg.carry([circle(0.0, 0.0, 100.0)]), *egg.carry([circle(0.0, 0.0, 100.0)], back=True)]
+        seen = [*egg.carry([[circle(0.0, 0.0, 100.0)]])[0], *egg.carry([[circle(0.0, 0.0, 100.0)]], back=True)[0]]
         assert sum(area(contour) for contour in seen) == pytest.approx(math.pi * 100.0**2, rel=0.07)
 
 

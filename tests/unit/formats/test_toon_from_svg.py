@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mien.core import LoadError, MienError
+from mien.faces.toon.checks import check_file
 from mien.faces.toon.reader import parse_toon
 from mien.faces.toon.toon import ToonFace
 from mien.formats.toon_from_svg import toon_from_svg
@@ -51,7 +52,7 @@ def faces():
 @pytest.mark.parametrize(
     ("name", "wanted"),
     [
-        ("sunny", "face cheek:R cheek:L pupil:R pupil:L mouth"),
+        ("sunny", "face cheek:R cheek:L pupil:R pupil:L mouth_line"),
         ("grin", "face outline brow:R brow:L white:R white:L ring:R ring:L pupil:R pupil:L "
          "mouth teeth tongue mouth_ring"),
         ("doodle", "face  brow:R brow:L ring:R ring:L pupil:R pupil:L nose mouth_line"),
@@ -228,3 +229,10 @@ def test_colours_that_look_alike_share_a_name():
     assert palette.add((0.88, 0.23, 0.23, 1.0)) == "red"
     assert palette.add((0.88, 0.13, 0.23, 1.0)) == "red2"
     assert palette.codes()["skin"] == "#FFCC4C"
+
+
+@pytest.mark.parametrize("name", FACES)
+def test_a_guessed_face_has_no_faults(name, tmp_path):
+    path = tmp_path / f"{name}.toon.json"
+    path.write_text(toon_from_svg(DRAWINGS / f"{name}.svg", name).to_text(), encoding="utf-8")
+    assert check_file(path).faults == ()

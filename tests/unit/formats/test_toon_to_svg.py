@@ -84,7 +84,7 @@ def test_a_pose_is_drawn_as_it_is(tmp_path):
     drawn = {item.name: item for item in face.shape(pose).paths}
     low = max(y for contour in shapes["mouth"].outline for segment in contour.segments for _, y in segment)
     assert low == pytest.approx(400.0 - drawn["mouth"].contours[0][:, 1].min(), abs=0.01)
-    assert shapes["mouth"].color[:3] == pytest.approx((0x65 / 255, 0x47 / 255, 0x1B / 255))
+    assert shapes["mouth_line"].color[:3] == pytest.approx((0x65 / 255, 0x47 / 255, 0x1B / 255))
 
 
 def test_the_same_face_gives_the_same_text():

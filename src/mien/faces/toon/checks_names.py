@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from itertools import chain
 from typing import Any
 
@@ -60,8 +60,7 @@ def _attachments(sheet: Sheet) -> Iterator[Fault]:
         if "with" in polygon and OF_POINT[polygon["with"]] not in sheet.features:
             points = [point for point, feature in OF_POINT.items() if feature in sheet.features]
             yield _unknown("attached", (*place, "with"), "control point", polygon["with"], points)
-        clip = polygon.get("clip", ())
-        for name in [clip] if isinstance(clip, str) else clip:
+        for name in _cutters(polygon):
             if name not in ids:
                 yield _unknown("attached", (*place, "clip"), "polygon", name, ids)
     for place, driver in sheet.drivers():
@@ -71,6 +70,12 @@ def _attachments(sheet: Sheet) -> Iterator[Fault]:
         yield from _named(line.get("offset_by", {}), (*place, "offset_by"), "motor", "motor", sheet.motors)
         for code in line.get("at", ()):
             yield from _named({code: code}, (*place, "at"), code, "motor", sheet.motors)
+
+
+def _cutters(polygon: Mapping[str, Any]) -> list[str]:
+    """Ids of the polygons that a polygon is clipped by."""
+    clip = polygon.get("clip", ())
+    return [clip] if isinstance(clip, str) else list(clip)
 
 
 def _expressions(sheet: Sheet) -> Iterator[Fault]:
@@ -101,8 +106,9 @@ def _unused(sheet: Sheet) -> Iterator[Fault]:
         for name in sheet.members(key):
             if name not in used:
                 yield Fault("unseen", (key, name), "is used by no polygon")
+    cutters = {name for polygon in everyone for name in _cutters(polygon)}
     for number, polygon in sheet.polygons:
-        if polygon.get("opacity") == 0:
+        if polygon.get("opacity") == 0 and polygon.get("id") not in cutters:
             yield Fault("unseen", ("polygons", number, "opacity"), "nothing of it is seen")
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from mien.core import Drawing, Face, MienError, Parameter, ParameterTable, Path, Pose, UnknownNameError
 
+from .gazing import Seen, what_is_seen
 from .polygons import Contours
 from .records import Floats
 from .solid_box import Box
@@ -86,6 +87,10 @@ class OnSolid(ToonFace):
         return self._on_egg(contours, motion, pose) if self.solid == "egg" else self._on_box(contours, motion, pose)
 
     @cached_property
+    def _seen(self) -> tuple[Seen, Seen]:
+        return what_is_seen(self.character, solid=True)
+
+    @cached_property
     def _form(self) -> Form:
         polygons, rest = ([getattr(shape, name) for shape in self._shapes] for name in ("polygon", "rest"))
         return Form.of(self.character, polygons, rest)
@@ -99,6 +104,10 @@ class OnSolid(ToonFace):
     def _on_egg(self, contours: Sequence[Contours], motion: Motion, pose: Pose) -> Drawing:
         """The drawing of contours, from the middle of the head, on a turned egg."""
         egg, form = Egg(self._form.radii, motion), self._form
+        painted = [each if role in ("front", "around") else () for role, each in zip(form.roles, contours, strict=True)]
+        fronts = egg.carry(painted)
+        around = [each if role == "around" else () for role, each in zip(form.roles, contours, strict=True)]
+        backs = egg.carry(around, back=True)
         pieces: list[list[Piece]] = []
         for number, (role, each) in enumerate(zip(form.roles, contours, strict=True)):
             if role == "still":
@@ -111,12 +120,11 @@ class OnSolid(ToonFace):
                     if not form.inner[number] or motion.shows_front:
                         pieces[-1].append(Piece(min(ahead, 1 if form.ears[number] else 0), (seen,)))
             else:
-                back = egg.carry(each, back=True) if role == "around" else []
-                polygon = self._shapes[number].polygon
+                polygon, front, back = self._shapes[number].polygon, fronts[number], backs[number]
                 if polygon.rule == "nonzero":
-                    pieces.append([Piece(0, (*egg.carry(each), *back))])
+                    pieces.append([Piece(0, (*front, *back))])
                 else:  # Where front and back overlap at the rim, the rule would make a hole of that.
-                    pieces.append([Piece(0, tuple(back), alone=True), Piece(0, tuple(egg.carry(each)))])
+                    pieces.append([Piece(0, tuple(back), alone=True), Piece(0, tuple(front))])
                 if polygon.layer in OVER_BACK:
                     pieces[-1].append(Piece(1, tuple(back)))
         return self._painted(pieces, pose)

@@ -11,12 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
 from mien.core import exact
 
 from .records import Floats
+from .solid_form import Indices
 from .solid_motion import Motion
 from .solid_rim import COUNT, INSIDE, directions, place_around, reach
 
@@ -66,76 +68,76 @@ class Egg:
         way = np.array([w / s for w, s in zip(self.motion.towards_viewer, self.size, strict=True)])
         return way / np.sqrt((way * way).sum())
 
-    def carry(self, contours: Sequence[Floats], *, back: bool = False) -> list[Floats]:
-        """What is seen of closed contours (N, 2) of the drawing, from the middle of the head, y up.
+    def carry(self, polygons: Sequence[Sequence[Floats]], *, back: bool = False) -> list[list[Floats]]:
+        """What is seen of polygons of the drawing, each of closed contours (N, 2), from the middle of the head, y up.
 
         Args:
-            contours: of one polygon.
+            polygons: each of some contours, or none.
             back: they lie on the back of the egg instead of its front.
         """
-        seen: list[Floats] = []
-        for contour in contours:
-            ball, over = self.on_ball(contour, -1 if back else 1)
-            if back == self.motion.shows_front:
-                over = np.ones(len(over))  # What stands out is shown once, by the side that is seen more.
-            facing = (ball * self.viewer).sum(axis=1)
-            # What stands out over the rim sinks behind the horizon little by little.
-            sinking = (over > 1.0) & (facing < 0.0) & (facing > -SINKS)
-            ball = np.where(sinking[:, None], self._to_horizon(ball, facing), ball)
-            over = np.where(sinking, 1.0 + (over - 1.0) * (1.0 + facing / SINKS), over)
-            facing = np.where(sinking, 0.0, facing)
-            if (facing <= 0.0).all():
-                continue
-            if (facing >= 0.0).all():
-                seen.append(self.place(ball, over))
-            else:
-                seen.append(self._cut_off(ball, over, facing))
-        if not seen:
-            return []
+        contours = list(chain(*polygons))
+        if not contours:
+            return [[] for _ in polygons]
+        landed = self._land(np.concatenate(contours), back=back)
+        ends = np.cumsum([len(contour) for contour in contours]).tolist()
+        parts = iter([landed.part(start, end) for start, end in zip([0, *ends], ends, strict=False)])
         # From outside, what lies on the back runs the other way round; all outlines shall run alike.
-        seen = [contour[::-1] for contour in seen] if back else seen
-        # What lies on one side of the egg does not run around a point of the other. Where its outline seems to, as it
-        # runs around the whole egg where nobody sees it, the outline of the egg the other way round takes that back.
+        sense = -1 if back else 1
+        outlines = [[self._outline_of(next(parts))[::sense] for _ in polygon] for polygon in polygons]
+        return [self._unwound([outline for outline in each if len(outline)], back=back) for each in outlines]
+
+    def _unwound(self, outlines: list[Floats], *, back: bool) -> list[Floats]:
+        """The outlines of a polygon, with that of the egg as often as they run around it where nobody sees it."""
+        # What lies on one side of the egg does not run around a point of the other: where it seems to, the outline of
+        # the egg the other way round takes that back.
         point = self.viewer + np.array([0.0, 0.0, 1.0 if back else -1.0])
         length = float(np.sqrt((point * point).sum()))
-        if length < OPPOSITE:
-            return seen
+        if not outlines or length < OPPOSITE:
+            return outlines
         other = self.place(point[None] / length, 1.0)[0]
-        rounds = sum(winding(contour, other) for contour in seen)
-        return [*seen, *([self.outline[::-1] if rounds > 0 else self.outline] * abs(rounds))]
+        rounds = sum(winding(outline, other) for outline in outlines)
+        return [*outlines, *([self.outline[::-1] if rounds > 0 else self.outline] * abs(rounds))]
 
-    def _cut_off(self, ball: Floats, over: Floats, facing: Floats) -> Floats:
+    def _land(self, points: Floats, *, back: bool) -> Landed:
+        ball, over = self.on_ball(points, -1.0 if back else 1.0)
+        if back == self.motion.shows_front:
+            over = np.ones(len(over))  # What stands out is shown once, by the side that is seen more.
+        facing = (ball * self.viewer).sum(axis=1)
+        # What stands out over the rim sinks behind the horizon little by little.
+        sinking = (over > 1.0) & (facing < 0.0) & (facing > -SINKS)
+        ball = np.where(sinking[:, None], self._to_horizon(ball, facing), ball)
+        over = np.where(sinking, 1.0 + (over - 1.0) * (1.0 + facing / SINKS), over)
+        facing = np.where(sinking, 0.0, facing)
+        return Landed(ball, over, facing, self.place(ball, over), self._horizon_place(ball))
+
+    def _outline_of(self, landed: Landed) -> Floats:
         """The outline of what is seen of a contour on the ball, along the horizon where the contour is hidden."""
-        start = int(np.flatnonzero((facing >= 0.0) & (np.roll(facing, 1) < 0.0))[0])
-        ball, over, facing = (np.roll(each, -start, axis=0) for each in (ball, over, facing))
-        hidden = facing < 0.0
-        turns = self._horizon_place(ball)
+        hidden = landed.facing < 0.0
+        if not (landed.facing > 0.0).any():
+            return landed.placed[:0]
+        if not hidden.any():
+            return landed.placed
+        count = len(hidden)
         outline = []
-        begins = np.flatnonzero(~hidden & np.roll(hidden, 1))
-        ends = np.flatnonzero(hidden & ~np.roll(hidden, 1))
-        for number, (begin, end) in enumerate(zip(begins, ends, strict=True)):
-            outline.append(self.place(ball[begin:end], over[begin:end]))
-            after = int(begins[number + 1]) if number + 1 < len(begins) else len(ball)
-            gone = np.arange(end - 1, after + 1) % len(ball)
-            leaves, returns = (
-                self._crossing(ball, facing, gone[0], gone[1]),
-                self._crossing(ball, facing, gone[-1], gone[-2]),
-            )
-            way = np.concatenate(
-                [self._horizon_place(leaves[None]), turns[gone[1:-1]], self._horizon_place(returns[None])]
-            )
-            steps = np.diff(way)
-            steps -= np.rint(steps / COUNT) * COUNT
-            rims = np.stack([leaves, returns])
-            edge = self.place(rims, over[gone[[0, -1]]])
-            outline += [edge[:1], self._arc(float(way[0]), float(steps.sum())), edge[1:]]
+        for begin in np.flatnonzero(~hidden & np.roll(hidden, 1)):
+            around = np.roll(hidden, -begin)
+            end = int(np.argmax(around))
+            after = end + int(np.argmin(around[end:])) if not around[end:].all() else count
+            seen, gone = ((begin + np.arange(*ends)) % count for ends in ((0, end), (end - 1, after + 1)))
+            outline += [landed.placed[seen], *self._along_horizon(landed, gone)]
         return np.concatenate(outline)
 
-    def _crossing(self, ball: Floats, facing: Floats, seen: int, hidden: int) -> Floats:
-        """(3,) the point of the horizon between a point that is seen and a hidden one."""
-        share = facing[seen] / (facing[seen] - facing[hidden])
-        point = ball[seen] * (1.0 - share) + ball[hidden] * share
-        return np.asarray(point / np.sqrt((point * point).sum()))
+    def _along_horizon(self, landed: Landed, gone: Indices) -> tuple[Floats, Floats, Floats]:
+        """The way along the horizon from one point that is seen, by hidden ones, to the next one that is seen."""
+        seen, hidden = gone[[0, -1]], gone[[1, -2]]
+        share = (landed.facing[seen] / (landed.facing[seen] - landed.facing[hidden]))[:, None]
+        rims = landed.ball[seen] * (1.0 - share) + landed.ball[hidden] * share
+        rims = rims / np.sqrt((rims * rims).sum(axis=1))[:, None]
+        first, last = self._horizon_place(rims)
+        steps = np.diff([first, *landed.turns[gone[1:-1]], last])
+        steps -= np.rint(steps / COUNT) * COUNT
+        ends = self.place(rims, landed.over[seen])
+        return ends[:1], self._arc(float(first), float(steps.sum())), ends[1:]
 
     def _arc(self, start: float, length: float) -> Floats:
         """Corners of the outline of the whole egg between a place and another further on, or further back."""
@@ -207,6 +209,30 @@ class Egg:
         across = across / np.sqrt((across * across).sum())
         a, b, c = across
         return across, np.array([y * c - z * b, z * a - x * c, x * b - y * a])
+
+
+@dataclass(frozen=True, eq=False)
+class Landed:
+    """Points of a drawing on the ball.
+
+    Attributes:
+        ball: (N, 3) where they lie.
+        over: (N,) how far they stand out beyond the rim.
+        facing: (N,) above 0 where they face the viewer.
+        placed: (N, 2) where they are seen.
+        turns: (N,) places around the horizon that they are next to.
+    """
+
+    ball: Floats
+    over: Floats
+    facing: Floats
+    placed: Floats
+    turns: Floats
+
+    def part(self, start: int, end: int) -> Landed:
+        """Some of them, in a row."""
+        columns = (self.ball, self.over, self.facing, self.placed, self.turns)
+        return Landed(*(column[start:end] for column in columns))
 
 
 def winding(contour: Floats, point: Floats) -> int:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from mien.core import Parameter, ParameterTable, exact
 from mien.core.parameters import color
 
+from .gazing import MOST_CURVED
 from .lines import resting_share
 from .motors import Motor, motors
 from .records import Character, Limits
@@ -38,7 +39,13 @@ VIEWER_M = 5.0
 
 def make_table(character: Character) -> ParameterTable:
     """The table of a character: rows of those motors that it has limits for, and aliases by code and number."""
-    rows = [*_motor_rows(character), *_proportion_rows(character), *_color_rows(character), *_viewer_rows()]
+    rows = [
+        *_motor_rows(character),
+        *_proportion_rows(character),
+        *_color_rows(character),
+        *_viewer_rows(),
+        *_gaze_rows(),
+    ]
     aliases = {alias: motors()[code].parameter for code in character.motors for alias in motors()[code].aliases}
     return ParameterTable(tuple(rows), aliases)
 
@@ -105,6 +112,15 @@ def _viewer_rows() -> Iterator[Parameter]:
             odd=axis == "x",
             role="scene",
         )
+
+
+def _gaze_rows() -> Iterator[Parameter]:
+    source = "Thórisson 1996, A1.4 (wished for there)"
+    doc = "How far pupils and head are drawn so that the gaze appears to the viewer as it is meant."
+    yield Parameter("gaze.compensation", 0.0, 1.0, 0.0, "share", "viewer", doc=doc, source=source, role="scene")
+    doc = "Curvature of the screen that the face is seen on; positive is convex, 0 flat."
+    limits = (-MOST_CURVED, MOST_CURVED)
+    yield Parameter("screen.curvature", *limits, 0.0, "1/m", "viewer", doc=doc, source=source, role="scene")
 
 
 def linear_color(code: str) -> tuple[float, float, float]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from mien.core import Drawing, ParameterTable, Path, Pose, Preset, Region
 
+from .gazing import Seen, compensate, what_is_seen
 from .lines import Moment, rest_of, resting_share
 from .motors import motors
 from .polygons import Contours, Shape
@@ -73,7 +74,15 @@ class ToonFace:
 
     def moment(self, pose: Pose) -> Moment:
         """What the motors do in a pose."""
-        return Moment(self.character, {code: pose[motors()[code].parameter] for code in self.character.motors})
+        shares = {code: pose[motors()[code].parameter] for code in self.character.motors}
+        if amount := pose["gaze.compensation"]:
+            viewer = (pose["viewer.x"], pose["viewer.y"], pose["viewer.z"])
+            shares = compensate(shares, self.character, self._seen, amount, viewer, pose["screen.curvature"])
+        return Moment(self.character, shares)
+
+    @cached_property
+    def _seen(self) -> tuple[Seen, Seen]:
+        return what_is_seen(self.character)
 
     @cached_property
     def _shapes(self) -> tuple[Shape, ...]:
