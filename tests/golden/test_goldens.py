@@ -27,6 +27,11 @@ CASES = {
     "gouraud": ("head:parke1974", {"jaw.rotation": 8}, Scene.parke(size_px=SIZE, subdivide=0)),
     "wire": ("head:parke1974", {}, Scene(size_px=SIZE, subdivide=0, shading="wire")),
     "transparent": ("head:kenji", "surprised", Scene(size_px=SIZE, background=((0, 0, 0, 0), (0, 0, 0, 0)))),
+    "toon_laugh": ("toon:olav", "laugh", PLAIN),
+    "toon_strict": ("toon:gus", {"MB": 0.5, "HH": 12, "ELU": 0.0}, PLAIN),
+    "toon_turned": ("toon:amara", {"HH": 20, "HV": -8, "HT": 6, "PLH": 15, "PRH": 15}, PLAIN),
+    "toon_clear": ("toon:tok", "skeptical", Scene(size_px=SIZE, background=((0, 0, 0, 0), (0, 0, 0, 0)))),
+    "toon_egg": ("toon:gus+egg", {"solid.turn": 45, "MB": 0.4}, PLAIN),
 }
 
 

@@ -53,6 +53,12 @@ ways = np.arange(800).reshape(20, 20, 2) * 7919 % 997 / 10.0
 region = Region(tuple(ways[18:]))
 paths = [Path("p", tuple(ways[k:k + 2]), (0.01 * k, 0.5, 0.9, 0.8), "nonzero", outside=(region,)) for k in range(18)]
 show("drawing", draw_drawing(Drawing((100.0, 80.0), tuple(paths)), plain, threads=threads))
+toon = load_face("toon:olav")
+drawn = toon.neutral.replace({"MB": 0.6, "MLH": 0.9, "MRV": 0.2, "ELU": 0.3, "BLC": 1.0, "HH": 17.0, "HT": 5.0, "PRH": 9.0})
+show("outlines", *(contour for path in toon.shape(drawn).paths for contour in path.contours))
+show("toon", draw(toon, drawn, plain, threads=threads))
+egg = load_face("toon:miso+egg")
+show("egg", draw(egg, egg.neutral.replace({"solid.turn": 40.0, "MB": 0.5}), plain, threads=threads))
 show("clear", draw(someone, someone.neutral, replace(plain, background=((0.1, 0.2, 0.3, 0.4),) * 2), threads=threads))
 """
 
@@ -73,7 +79,7 @@ def digests(threads, **environment):
 def test_the_processor_and_the_number_of_threads_decide_no_bit(tmp_path):
     features = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
     here = digests(1)
-    assert len(here) == 11
+    assert len(here) == 14
     others = {
         "a processor of another kind": (3, {"NUMBA_CPU_NAME": "generic", "NUMBA_CACHE_DIR": str(tmp_path)}),
         "NumPy without its fast paths": (2, {"NPY_DISABLE_CPU_FEATURES": features, "OPENBLAS_CORETYPE": "Prescott"}),
