@@ -25,6 +25,7 @@ SECTIONS = {
         "toon_strip",
         "toon_turns",
         "toon_solids",
+        "toon_gaze",
         "toon_motors",
         "toon_palettes",
     ),
