@@ -234,3 +234,10 @@ def test_a_hole_beyond_the_face_keeps_its_own_edge() -> None:
     paths = (Path("hole", hole, RED), Path("face", (box(0, 0, 2, 4),), RED, outside=(Region(hole),)))
     picture = draw_drawing(Drawing((4.0, 4.0), paths), Scene(size_px=(4, 4), background=CLEAR))
     np.testing.assert_allclose(picture[1, :, 3], [255, 255, 255, 128], atol=1)
+
+
+@WAYS
+def test_hatching_finer_than_pixels_is_grey(area) -> None:
+    teeth = area([box(x, 1.0, x + 0.01, 15.0) for x in 1.0 + 0.02 * np.arange(700)], 16, 16)
+    assert teeth[2:14, 2:14] == pytest.approx(0.5, abs=0.02)
+    assert teeth[0].max() == teeth[-1].max() == 0.0

@@ -20,7 +20,11 @@ def clipped_drawing(seed: int = 0) -> Drawing:
         return tuple(generator.uniform(-4.0, 28.0, (int(generator.integers(3, 9)), 2)) for _ in range(2))
 
     regions = [Region(outline(), "nonzero"), Region(outline())]
-    paths = [Path("first", regions[1].contours, (0.2, 0.3, 0.4, 0.9))]
+    scribble = generator.uniform(0.0, 24.0, (2 * sweeping.MANY, 2))
+    paths = [
+        Path("first", regions[1].contours, (0.2, 0.3, 0.4, 0.9)),
+        Path("scribble", (scribble,), (0.3, 0.4, 0.2, 0.7)),
+    ]
     for k in range(8):
         color = (*generator.random(3).tolist(), 1.0 if k % 2 else 0.6)
         paths.append(
