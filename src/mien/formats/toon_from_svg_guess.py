@@ -36,6 +36,15 @@ EYES_AT, EYES_SPREAD = 0.4, 0.2
 MOUTH_AT, MOUTH_SPREAD = 0.74, 0.17
 """Where eyes and mouth are looked for, as a share of the height of the face, and how far from there they may be."""
 
+PALE = 0.4
+"""What a shape that is lighter than the skin has of the score of a mouth: it may be a muzzle, or teeth."""
+
+LIPS = 0.65
+"""Share of a mouth from which a shape in it is its opening, and what is around it are lips."""
+
+ARCH = 0.5
+"""Share of its box that an eye fills at most to be taken for the line of a smiling one."""
+
 FLAT = 0.01
 """Area of a shape without height, as a share of the square of its width."""
 
@@ -233,6 +242,8 @@ class _Search:
                 self._take([piece], piece.role, side)
             elif piece in whites:
                 self._take([piece], "white", side)
+            elif not whites and _is_arch(piece):
+                self._take([piece], "arc", side)
             elif piece.role == "pupil" or not piece.stroked:
                 self._take([piece], "pupil", side)
             elif piece.ring:
@@ -265,12 +276,17 @@ class _Search:
                 height = (piece.box.y - self.face.top) / self.face.height
                 place = math.exp(-(((height - MOUTH_AT) / MOUTH_SPREAD) ** 2))
                 strength = contrast(piece.shape.color, self.skin)
+                if not piece.stroked and luminance(piece.shape.color) > max(LIGHT, luminance(self.skin)):
+                    strength *= PALE
                 wide = min(1.0, piece.box.width / (0.3 * self.face.width))
                 scored.append((strength * place * wide, piece.box.area, -number, piece))
         best = max(scored, default=None, key=lambda each: (round(each[0], 2), *each[1:3]))
         if best is None or best[0] < LEAST:
             return None
-        holding = [each[3] for each in scored if _within(best[3], each[3]) and each[0] > LEAST]
+        # A light shape around a line is a muzzle, one around a dark shape may be the lips.
+        line = best[3].stroked and not best[3].ring
+        outer = [each[3] for each in scored if _within(best[3], each[3]) and each[0] > LEAST]
+        holding = [piece for piece in outer if not line or piece is best[3] or luminance(piece.shape.color) < LIGHT]
         return max(holding, key=_size)
 
     def _eye_box(self, side: str) -> Box:
@@ -298,6 +314,9 @@ class _Search:
             base = filled[0]
             self._take([base], "mouth")
             for piece in filled[1:]:
+                if _close(piece.box, base.box) and _size(piece) > LIPS * _size(base):
+                    self._take([piece], "mouth_ring")
+                    continue
                 upper = piece.box.y < base.box.y
                 self._take([piece], "teeth" if luminance(piece.shape.color) > LIGHT or upper else "tongue")
         for piece in rest:
@@ -362,6 +381,12 @@ def _is_thin(piece: Piece) -> bool:
         return False
     lens = fit_lens(piece.contours, closed=True)
     return lens.opening < THIN * lens.box.width
+
+
+def _is_arch(piece: Piece) -> bool:
+    """Whether a filled shape is a curved line, as of eyes that smile."""
+    wide = piece.box.width > 1.1 * piece.box.height
+    return not piece.stroked and wide and area(piece.points) < ARCH * piece.box.area
 
 
 def _could_be_head(piece: Piece, size: tuple[float, float]) -> bool:

@@ -15,6 +15,11 @@ from .toon_from_svg_pieces import Box, box_of
 Profile = tuple[float, float]
 
 STRAIGHT: Profile = (1.0, 1.0)
+GENTLE: Profile = (2.0, 1.0)
+
+LEVEL = 0.03
+"""Share of its width below which a line is level, and says nothing about how it bends."""
+
 EXPONENTS = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0)
 SAMPLES = tuple(number / 12 for number in range(1, 12))
 
@@ -66,6 +71,8 @@ def fit_lens(contours: Iterable[Sequence[Point]], *, closed: bool) -> Lens:
     middle = _heights(edges, box.x) or [box.y]
     top, bottom = (box.x, min(middle)), (box.x, max(middle))
     lens = Lens(left, right, top, bottom, STRAIGHT)
+    if max(abs(y - end[1]) for y in (top[1], bottom[1]) for end in (left, right)) < LEVEL * box.width:
+        return Lens(left, right, top, bottom, GENTLE)
     drawn = [(x, s, side, _heights(edges, x)) for s in SAMPLES for side, x in _abscissas(lens, s)]
     heights = [(s, side, min(ys), max(ys)) for _, s, side, ys in drawn if ys]
 

@@ -137,14 +137,9 @@ class _Maker:
         elif role == "ring":
             yield self._entry(part, "feature", f"rim_{side}", feature=feature)
         else:
-            lower = part.piece.box.y > lens.box.y if role != "arc" else self._is_bowl(part.piece)
+            lower = part.piece.box.y > lens.box.y if role != "arc" else eye.bowl
             label = {"arc": "eye", "lid": "lid", "lash": "lash"}[role]
             yield self._entry(part, "feature", f"{label}_{side}", feature=feature, line="lower" if lower else "upper")
-
-    def _is_bowl(self, piece: Piece) -> bool:
-        """Whether a line that stands for an eye is open above: then it is the lower lid."""
-        ends = 0.5 * (piece.contours[0][0][1] + piece.contours[0][-1][1])
-        return piece.box.bottom - ends > ends - piece.box.top
 
     def _shut_lid(self, side: str) -> Entry:
         """A line that appears as the eye shuts, where none is drawn on the lids already."""
@@ -210,7 +205,8 @@ class _Maker:
         colorful = bool(found.of("lip")) or any(self._is_painted(part.piece) for part in solid)
         if luminance(inside) < DARK and colorful:
             yield from self._teeth_and_tongue()
-        if mouth.drawn == "open" and not found.of("mouth_ring", "lip"):
+        outlined = any(part.piece.stroked or part.role == "lip" for part in found.of("mouth_ring", "lip"))
+        if mouth.drawn == "open" and not outlined:
             stroke = {"feature": "M"}
             yield self._add(
                 "mouth_shut", "feature", self._palette.add(inside, "mouth"), feature="M", stroke=stroke,

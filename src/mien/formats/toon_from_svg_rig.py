@@ -35,11 +35,13 @@ class Eye:
         lens: its lids.
         bare: it is drawn without a white: dark pupils that lids cover.
         arc: it is drawn as a line.
+        bowl: a line that is open above, as of an eye that is shut: the lower lid.
     """
 
     lens: Lens
     bare: bool = False
     arc: bool = False
+    bowl: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,10 +112,11 @@ def _fit_eye(found: Found, side: str) -> Eye:
     arc = (found.of("arc", side=side) or found.of("lash", "lid", side=side))[0].piece
     line = fit_lens(arc.contours, closed=not arc.stroked)
     ends = 0.5 * (line.left[1] + line.right[1])
-    apex, half = line.top[1], 0.15 * line.box.width
+    apex, half = 0.5 * (line.top[1] + line.bottom[1]), 0.15 * line.box.width
     # An arch turns over when it shuts; a bowl is an eye that is shut already.
     top, bottom = (apex, ends + max(0.5 * (ends - apex), 0.1)) if apex < ends else (ends - half, max(apex, ends + 0.1))
-    return Eye(Lens(line.left, line.right, (line.top[0], top), (line.top[0], bottom), line.profile), arc=True)
+    lens = Lens(line.left, line.right, (line.top[0], top), (line.top[0], bottom), line.profile)
+    return Eye(lens, arc=True, bowl=apex >= ends)
 
 
 def _fit_mouth(found: Found) -> Mouth:

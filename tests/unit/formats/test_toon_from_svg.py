@@ -186,6 +186,26 @@ def test_eyes_drawn_as_arcs_turn_over_when_they_shut(tmp_path):
     assert shut_low < low
 
 
+def test_filled_arcs_are_eyes_that_smile(tmp_path):
+    arcs = '<path d="M9 15C9 9 15 9 15 15H14C14 10.5 10 10.5 10 15ZM21 15C21 9 27 9 27 15H26C26 10.5 22 10.5 22 15Z"/>'
+    assert {("arc", "R"), ("arc", "L")} <= roles(guess(tmp_path, arcs + MOUTH))
+
+
+def test_a_muzzle_around_a_line_is_no_mouth(tmp_path):
+    muzzle = '<ellipse cx="18" cy="25" rx="8" ry="6" fill="#fffaf0"/><path d="M17 20h2l-1 1.5z" fill="#e06a7a"/>'
+    line = '<path d="M13 25Q18 29 23 25" fill="none" stroke="#400"/>'
+    parts = {part.role: part.piece for part in guess(tmp_path, EYES + muzzle + line).found.parts}
+    assert parts["mouth_line"].stroked
+    assert parts["nose"].box.width < 40.0
+
+
+def test_lips_around_an_opening_go_along_with_it(tmp_path):
+    lips = '<path d="M10 22h16q-1 8-8 8t-8-8z" fill="#c33"/><path d="M11 23h14q-1 6-7 6t-7-6z" fill="#400"/>'
+    face = play(guess(tmp_path, EYES + lips))
+    low = [box(face, "mouth_rim", **{"mouth.bottom": share})[1] for share in (0.0, 1.0)]
+    assert low[0] - low[1] > 50.0
+
+
 def test_the_canvas_has_the_usual_size_and_a_background_is_one(tmp_path):
     guessed = guess(tmp_path, EYES + MOUTH)
     assert guessed.document["size"] == [400.0, 400.0]
