@@ -8,7 +8,7 @@ from mien.core import Cue, Pose, Sound, subdivide
 from mien.faces import load_face
 from mien.perform import perform
 from mien.speech import Speech, strip_stress
-from support import lip_gap_mm
+from support import FACE_NAMES, face, lip_gap_mm
 
 HEAD = load_face("head")
 SHUT_MM = 0.45
@@ -66,3 +66,19 @@ def test_vowels_open_wider_the_larger_the_amount(amount):
     )
     assert np.all(np.sign(scaled - plain) == np.sign(amount - 1.0))
     assert np.all(scaled > 1.0)
+
+
+@pytest.mark.parametrize("name", [name for name in FACE_NAMES if name.startswith("toon:")])
+@pytest.mark.parametrize("amount", [0.5, 2.0, 3.0])
+def test_drawn_lips_are_shut_at_p_b_m_and_part_in_vowels_at_every_amount(name, amount):
+    subject = face(name)
+    table = subject.parameters
+    timeline = mien.exaggerate(perform(speech(), subject, emotion="surprised"), amount).timeline
+    lips = [table.index[row] for row in ("mouth.bottom", "mouth.top") if row in table]
+    shut = np.array([table.lows[row] for row in lips])
+    for cue in timeline.phones:
+        values = timeline.values(np.linspace(cue.start_s, cue.end_s, 9), table)[:, lips]
+        if strip_stress(cue.symbol) in ("P", "B", "M"):
+            assert np.abs(values - shut).max(axis=1).min() < 0.02, cue
+        elif cue.symbol in ("AE1", "AW1"):
+            assert values[4, 0] > 0.1, cue
