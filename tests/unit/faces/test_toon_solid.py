@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from mien import load_face
-from mien.core import Drawing, MienError, UnknownNameError
+from mien.core import Drawing, MienError, Scene, UnknownNameError
 from mien.faces.toon.polygons import Contours
 from mien.faces.toon.shipped import toon_names
 from mien.faces.toon.solid import SOLIDS, OnSolid
@@ -17,6 +18,7 @@ from mien.faces.toon.solid_egg import Egg
 from mien.faces.toon.solid_form import area
 from mien.faces.toon.solid_motion import Motion
 from mien.faces.toon.solid_rim import COUNT, INSIDE, directions, measure_reach, place_around, reach
+from mien.render import draw
 
 BALL = np.full(COUNT, 100.0)
 
@@ -204,6 +206,17 @@ def test_any_pose_from_any_side_is_a_drawing(name: str) -> None:
             for path, other in zip(drawing.paths, again.paths, strict=True):
                 assert all(np.array_equal(a, b) for a, b in zip(path.contours, other.contours, strict=True))
                 assert all(np.abs(contour).max() < 3000.0 for contour in path.contours)
+
+
+@pytest.mark.parametrize("name", ["toon:agat+egg", "toon:olav+egg"])
+def test_nothing_flashes_while_it_turns(name: str) -> None:
+    face = load_face(name)
+    scene = Scene(size_px=(60, 66))
+    angles = [*range(-180, 181, 6)]
+    pictures = [draw(face, face.neutral.replace({"solid.turn": float(turn)}), scene).astype(float) for turn in angles]
+    steps = np.array([np.abs(one - other).mean() for one, other in pairwise(pictures)])
+    around = np.array([steps[max(0, number - 3) : number + 4].mean() for number in range(len(steps))])
+    assert (steps < 2.5 * around).all()
 
 
 def test_motors_of_the_head_turn_the_body() -> None:

@@ -5,7 +5,7 @@ Source: Thórisson 1996, A1.4 (a face "texture-mapped onto three-dimensional sha
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -104,60 +104,71 @@ class OnSolid(ToonFace):
     def _on_egg(self, contours: Sequence[Contours], motion: Motion, pose: Pose) -> Drawing:
         """The drawing of contours, from the middle of the head, on a turned egg."""
         egg, form = Egg(self._form.radii, motion), self._form
-        painted = [each if role in ("front", "around") else () for role, each in zip(form.roles, contours, strict=True)]
-        fronts = egg.carry(painted)
-        around = [each if role == "around" else () for role, each in zip(form.roles, contours, strict=True)]
-        backs = egg.carry(around, back=True)
-        pieces: list[list[Piece]] = []
-        for number, (role, each) in enumerate(zip(form.roles, contours, strict=True)):
-            if role == "still":
-                pieces.append([Piece(0, each)])
-            elif role == "out":
-                pieces.append([])
-                for contour, anchor in zip(each, form.anchors[number], strict=True):
-                    seen, ahead = egg.stand(contour, anchor)
-                    # Ears are seen before the head from their side; what stands on top of it stays behind it.
-                    if not form.inner[number] or motion.shows_front:
-                        pieces[-1].append(Piece(min(ahead, 1 if form.ears[number] else 0), (seen,)))
-            else:
-                polygon, front, back = self._shapes[number].polygon, fronts[number], backs[number]
-                if polygon.rule == "nonzero":
-                    pieces.append([Piece(0, (*front, *back))])
-                else:  # Where front and back overlap at the rim, the rule would make a hole of that.
-                    pieces.append([Piece(0, tuple(back), alone=True), Piece(0, tuple(front))])
-                if polygon.layer in OVER_BACK:
-                    pieces[-1].append(Piece(1, tuple(back)))
-        return self._painted(pieces, pose)
+        roles = list(zip(form.roles, contours, strict=True))
+        fronts = egg.carry([each if role in ("front", "around") else () for role, each in roles])
+        backs = egg.carry([each if role == "around" else () for role, each in roles], back=True)
+
+        def paint(number: int, _: Contours) -> Iterator[Piece]:
+            polygon, front, back = self._shapes[number].polygon, fronts[number], backs[number]
+            if polygon.rule == "nonzero":
+                yield Piece(0, (*front, *back))
+            else:  # Where front and back overlap at the rim, the rule would make a hole of that.
+                yield Piece(0, tuple(back), alone=True)
+                yield Piece(0, tuple(front))
+            if polygon.layer in OVER_BACK:
+                yield Piece(1, tuple(back))
+
+        def stand(number: int, contour: Floats, anchor: Floats) -> Iterator[Piece]:
+            seen, ahead = egg.stand(contour, anchor)
+            # Ears are seen before the head from their side; what stands on top of it stays behind it.
+            yield Piece(min(ahead, 1 if form.ears[number] else 0), (seen,))
+
+        return self._painted(self._pieces(contours, motion, paint, stand), pose)
 
     def _on_box(self, contours: Sequence[Contours], motion: Motion, pose: Pose) -> Drawing:
         """The drawing of contours, from the middle of the head, on a turned box."""
         form = self._form
         width = 0.5 * float(form.radii[0] + form.radii[len(form.radii) // 2])
         box, thin = Box(BOX_DEPTH * width, motion), Box(THIN_DEPTH * width, motion)
+
+        def paint(number: int, each: Contours) -> Iterator[Piece]:
+            polygon, around = self._shapes[number].polygon, form.roles[number] == "around"
+            plate = tuple(box.plate(each)) if around or motion.shows_front else ()
+            yield Piece(0, plate)
+            if around and not motion.shows_front and polygon.layer in OVER_BACK:
+                yield Piece(1, plate)
+            if around and not polygon.clip:
+                yield Piece(-2, tuple(box.walls(each, form.at_rim(each))), wall=True)
+
+        def stand(number: int, contour: Floats, anchor: Floats) -> Iterator[Piece]:
+            stage = -3 if thin.is_behind(anchor) else -1
+            yield Piece(stage, tuple(thin.plate([contour])))
+            if not form.inner[number]:
+                yield Piece(stage, tuple(thin.walls([contour], [np.full(len(contour), True)])), wall=True)
+
+        return self._painted(self._pieces(contours, motion, paint, stand), pose)
+
+    def _pieces(
+        self,
+        contours: Sequence[Contours],
+        motion: Motion,
+        paint: Callable[[int, Contours], Iterable[Piece]],
+        stand: Callable[[int, Floats, Floats], Iterable[Piece]],
+    ) -> list[list[Piece]]:
+        """The pieces of each polygon: of what is painted on the body, and of each contour that stands out from it."""
+        form = self._form
         pieces: list[list[Piece]] = []
         for number, (role, each) in enumerate(zip(form.roles, contours, strict=True)):
             if role == "still":
                 pieces.append([Piece(0, each)])
-            elif role == "out":
+            elif role != "out":
+                pieces.append(list(paint(number, each)))
+            elif form.inner[number] and not motion.shows_front:
                 pieces.append([])
-                for contour, anchor in zip(each, form.anchors[number], strict=True):
-                    if form.inner[number] and not motion.shows_front:
-                        continue
-                    stage = -3 if thin.is_behind(anchor) else -1
-                    pieces[-1].append(Piece(stage, tuple(thin.plate([contour]))))
-                    if not form.inner[number]:
-                        walls = thin.walls([contour], [np.full(len(contour), True)])
-                        pieces[-1].append(Piece(stage, tuple(walls), wall=True))
-            elif role == "around":
-                plate = tuple(box.plate(each))
-                pieces.append([Piece(0, plate)])
-                if not motion.shows_front and self._shapes[number].polygon.layer in OVER_BACK:
-                    pieces[-1].append(Piece(1, plate))
-                if not self._shapes[number].polygon.clip:
-                    pieces[-1].append(Piece(-2, tuple(box.walls(each, form.at_rim(each))), wall=True))
             else:
-                pieces.append([Piece(0, tuple(box.plate(each)) if motion.shows_front else ())])
-        return self._painted(pieces, pose)
+                pairs = zip(each, form.anchors[number], strict=True)
+                pieces.append([piece for contour, anchor in pairs for piece in stand(number, contour, anchor)])
+        return pieces
 
     def _painted(self, pieces: Sequence[Sequence[Piece]], pose: Pose) -> Drawing:
         """The drawing of the pieces of each polygon; those of stage 0 lie where they were drawn, the others around."""
