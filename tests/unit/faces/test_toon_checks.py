@@ -6,13 +6,16 @@ import re
 from functools import cache
 from importlib.resources import files
 
+import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
 from mien.core import LoadError
 from mien.faces.toon.checks import check_bytes
 from mien.faces.toon.checks_faults import rules
+from mien.faces.toon.checks_poses import find_wild_poses
 from mien.faces.toon.checks_schema import find_mismatches
+from mien.faces.toon.polygons import Shape
 from mien.faces.toon.reader import parse_toon
 from mien.faces.toon.schema import toon_schema
 from mien.faces.toon.shipped import FOLDER, SUFFIX, toon_names
@@ -238,6 +241,20 @@ def test_polygons_that_go_wild_are_told_with_the_motors_that_do_it():
     assert (fault.rule, fault.place[1], fault.got) == ("wild", len(NAMES), "MB 1")
 
 
+def test_polygons_without_a_finite_place_are_told(monkeypatch):
+    face = check_bytes(starter_text("kim").encode(), 0).face
+
+    whole = Shape.contours
+
+    def contours(shape, moment):
+        share = np.nan if shape.polygon.id == "nose" and moment.activation("HV") else 1.0
+        return tuple(contour * share for contour in whole(shape, moment))
+
+    monkeypatch.setattr(Shape, "contours", contours)
+    (fault,) = find_wild_poses(face, {name: number for number, name in enumerate(NAMES)}, 100)
+    assert (fault.rule, fault.place, fault.got) == ("pose", ("polygons", NAMES.index("nose")), "HV -18")
+
+
 def test_every_rule_is_tried():
     elsewhere = {"file", "json", "depth", "repeated", "strict", "large", "gaze", "wild", "pose"}
     assert {fault[2] for fault in FAULTS} | elsewhere == set(rules())
@@ -295,6 +312,8 @@ def test_strict_faces_have_no_extensions(place, value):
     document = edit(place, value, STRICT)
     faults = [fault for fault in check(document) if fault.rule == "strict"]
     assert [fault.place[-1] for fault in faults] == [place[-1]]
+    with pytest.raises(LoadError, match="extension"):
+        parse_toon(json.dumps(document), "document")
     document["mode"] = "extended"
     assert not [fault for fault in check(document) if fault.rule == "strict"]
 

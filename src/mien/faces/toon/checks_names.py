@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from itertools import chain
 from typing import Any
 
 from .checks_faults import Fault, Place
@@ -11,7 +10,7 @@ from .checks_schema import suggest
 from .checks_sheet import Sheet
 from .motors import motors
 from .reader import COLOR, FEATURE_POINTS
-from .schema import Schema, referred, toon_schema
+from .schema import find_extensions
 
 OF_POINT = {point: feature for feature, points in FEATURE_POINTS.items() for point in points}
 
@@ -24,7 +23,8 @@ def find_wrong_names(sheet: Sheet) -> Iterator[Fault]:
     yield from _expressions(sheet)
     yield from _unused(sheet)
     if sheet.strict:
-        yield from _extensions(sheet.document, toon_schema(), ())
+        for place in find_extensions(sheet.document):
+            yield Fault("strict", place, f"{place[-1]!r} is an extension, and the mode is strict")
 
 
 def _ids(sheet: Sheet) -> Iterator[Fault]:
@@ -110,22 +110,6 @@ def _unused(sheet: Sheet) -> Iterator[Fault]:
     for number, polygon in sheet.polygons:
         if polygon.get("opacity") == 0 and polygon.get("id") not in cutters:
             yield Fault("unseen", ("polygons", number, "opacity"), "nothing of it is seen")
-
-
-def _extensions(value: Any, schema: Schema, place: Place) -> Iterator[Fault]:
-    """Keys that the paper has not, the outermost ones."""
-    if "$ref" in schema:
-        yield from _extensions(value, referred(schema), place)
-    if isinstance(value, dict):
-        for key, member in schema.get("properties", {}).items():
-            if key in value and member.get("x-extension"):
-                yield Fault("strict", (*place, key), f"{key!r} is an extension, and the mode is strict")
-            elif key in value:
-                yield from _extensions(value[key], member, (*place, key))
-    elif isinstance(value, list) and "items" in schema and "prefixItems" not in schema:
-        yield from chain.from_iterable(
-            _extensions(item, schema["items"], (*place, number)) for number, item in enumerate(value)
-        )
 
 
 def _named(members: Any, place: Place, key: str, kind: str, known: Collection[str]) -> Iterator[Fault]:

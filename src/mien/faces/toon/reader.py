@@ -40,6 +40,7 @@ from .records import (
     State,
     Touch,
 )
+from .schema import find_extensions
 from .table import PROPORTIONS
 
 FORMAT, VERSION = "mien-toon", 1
@@ -97,11 +98,26 @@ def parse_toon(text: str, place: str) -> Character:
     except ValueError:  # of Python itself
         raise LoadError(place, "has a number of thousands of digits") from None
     try:
-        return _character(Fields(document, ""))
+        character = _character(Fields(document, ""))
+        if character.mode == "strict":
+            _check_strict(document)
+        return character
     except LoadError:
         raise
     except MienError as error:
         raise LoadError(place, str(error), hint=f"mien toon check {place} tells all that is wrong") from None
+
+
+def _check_strict(document: Any) -> None:
+    """Makes sure that a document has nothing but what the paper has.
+
+    Raises:
+        MienError: it has; names the first such key.
+    """
+    extension = next(find_extensions(document), None)
+    if extension is not None:
+        place = ".".join(map(str, extension))
+        raise MienError(f"{place}: is an extension, and the mode is strict — leave it out, or set mode to extended")
 
 
 def _character(fields: Fields) -> Character:

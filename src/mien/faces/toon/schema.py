@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -34,3 +34,22 @@ def referred(schema: Schema) -> Schema:
 def title(schema: Schema) -> str:
     """What a schema wants, in words."""
     return str(schema.get("title") or title(referred(schema)) if schema else "")
+
+
+def find_extensions(document: Any) -> Iterator[tuple[str | int, ...]]:
+    """Where a document has keys that the paper has not; of keys within one another the outermost."""
+    return _extensions(document, toon_schema(), ())
+
+
+def _extensions(value: Any, schema: Schema, place: tuple[str | int, ...]) -> Iterator[tuple[str | int, ...]]:
+    if "$ref" in schema:
+        yield from _extensions(value, referred(schema), place)
+    if isinstance(value, dict):
+        for key, member in schema.get("properties", {}).items():
+            if key in value and member.get("x-extension"):
+                yield (*place, key)
+            elif key in value:
+                yield from _extensions(value[key], member, (*place, key))
+    elif isinstance(value, list) and "items" in schema and "prefixItems" not in schema:
+        for number, item in enumerate(value):
+            yield from _extensions(item, schema["items"], (*place, number))
