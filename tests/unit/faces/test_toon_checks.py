@@ -15,6 +15,7 @@ from mien.faces.toon.checks import check_bytes
 from mien.faces.toon.checks_faults import rules
 from mien.faces.toon.checks_poses import find_wild_poses
 from mien.faces.toon.checks_schema import find_mismatches
+from mien.faces.toon.hands import SharedHand
 from mien.faces.toon.polygons import Shape
 from mien.faces.toon.reader import parse_toon
 from mien.faces.toon.schema import toon_schema
@@ -27,6 +28,8 @@ STRICT = json.loads(starter_text("base", "strict"))
 NAMES = [polygon["id"] for polygon in BASE["polygons"]]
 BOW = [[100, 100], [160, 160], [160, 100], [100, 150]]
 REMOVE = object()
+HAND = {"use": "cartoon", "at": [330, 380], "skin": "skin", "shade": "shade", "sleeve": "shirt", "fold": "shirt"}
+KEY = {"time": 1, "values": {"HI": 1}}
 VALIDATOR = Draft202012Validator(toon_schema())
 
 
@@ -189,6 +192,12 @@ FAULTS = [
     (["expressions"], {"grin": {"HH": 40}}, "range", "expressions.grin.HH", "from -26 to 26"),
     (["proportions"], {"eyes.size": [0.5, 0.9]}, "range", "proportions.eyes.size[1]", "from 1 to 10"),
     (["proportions"], {"eyes.sise": [0.5, 2]}, "unknown", "proportions.eyes.sise", "did you mean 'eyes.size'"),
+    (["hand"], {}, "shape", "hand", "want use, at, skin, shade, sleeve and fold or poses or moves"),
+    (["hand"], HAND | {"use": "cartoons"}, "attached", "hand.use", "did you mean 'cartoon'"),
+    (["hand"], HAND | {"fold": "gold"}, "palette", "hand.fold", "unknown colour 'gold'"),
+    (["hand"], HAND | {"poses": {"fist": {"HI": 2}}}, "range", "hand.poses.fist.HI", "from 0 to 1, got 2"),
+    (["hand"], HAND | {"poses": {"fist": {"EAR": 1}}}, "attached", "hand.poses.fist.EAR", "unknown motor 'EAR'"),
+    (["hand"], HAND | {"moves": {"wave": [KEY, KEY]}}, "table", "hand.moves.wave[1].time", "want above 1, got 1"),
     (["parts"], {"hand": [{"motor": "MB", "max": {"move": [0, 1]}}]}, "unseen", "parts.hand", "used by no polygon"),
 ]  # fmt: skip
 
@@ -226,6 +235,17 @@ def test_verdicts_are_those_of_a_complete_implementation_and_of_the_reader(place
         assert mistaken or not theirs
 
 
+def test_a_shipped_hand_has_motors_polygons_and_a_part_of_its_own():
+    assert check(edit(["hand"], HAND), 80) == ()
+    document = edit(["hand"], HAND | {"poses": {"fist": {"HI": 1, "HO": 1}}})
+    document["expressions"] = {"hello": {"HY": 1}}
+    assert check(document) == ()
+    document["polygons"].append(polygon(id=SharedHand("cartoon", (0, 0), 1, {}).ids[0]))
+    document["parts"] = {"hand": [{"motor": "MB", "max": {"move": [0, 1]}}]}
+    faults = [fault for fault in check(document) if fault.grave]
+    assert [fault.rule for fault in faults] == ["repeated id"] * 2
+
+
 def test_gaze_that_leaves_the_eye():
     document = edit(["motors", "PLH", "max"], 30)
     assert check(document) == ()  # the pupil is clipped by the eye
@@ -251,7 +271,7 @@ def test_polygons_without_a_finite_place_are_told(monkeypatch):
         return tuple(contour * share for contour in whole(shape, moment))
 
     monkeypatch.setattr(Shape, "contours", contours)
-    (fault,) = find_wild_poses(face, {name: number for number, name in enumerate(NAMES)}, 100)
+    (fault,) = find_wild_poses(face, {name: ("polygons", number) for number, name in enumerate(NAMES)}, 100)
     assert (fault.rule, fault.place, fault.got) == ("pose", ("polygons", NAMES.index("nose")), "HV -18")
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from mien.core import MienError
 
 from .checks_drawn import find_misplaced
-from .checks_faults import Fault
+from .checks_faults import Fault, Place
 from .checks_limits import find_wrong_limits
 from .checks_names import find_wrong_names
 from .checks_outlines import find_wrong_outlines
@@ -94,22 +94,24 @@ def _check(document: Any, places: Places, poses: int) -> tuple[list[Fault], Toon
     explained = {fault.place[:2] for fault in found if fault.rule == "limits"}
     plain = (fault for fault in sheet.faults if fault.rule != "range" or fault.place[:2] not in explained)
     faults = [*repeated, *plain, *found]
-    numbers = {name: number for number, name in sheet.ids}
+    found_at: dict[str, Place] = {name: ("polygons", number) for number, name in sheet.ids}
+    if sheet.shared_hand is not None:
+        found_at |= dict.fromkeys(sheet.shared_hand.ids, ("hand",))
     character = _mended(document, sheet, faults)
     if character is not None:
-        faults += find_misplaced(character, numbers)
+        faults += find_misplaced(character, found_at)
     if any(fault.grave for fault in faults):
         return faults, None
     try:
         face = ToonFace(parse_toon(json.dumps(document), "document"), "document")
     except MienError as error:
         return [*faults, Fault("type", (), str(error))], None
-    return [*faults, *find_wild_poses(face, numbers, poses)], face
+    return [*faults, *find_wild_poses(face, found_at, poses)], face
 
 
 def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) -> Character | None:
     """The face without the polygons and colours that have faults, so that the others can be looked at."""
-    wrong = {fault.place[:2] for fault in faults if fault.grave}
+    wrong = {fault.place[:2] for fault in faults if fault.grave and fault.place}
     parts = {name: part for name, part in sheet.members("parts").items() if ("parts", name) not in wrong}
     kept = [
         polygon
@@ -117,6 +119,8 @@ def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) 
         if ("polygons", number) not in wrong and polygon.get("part") in (None, *parts)
     ]
     ids = {polygon["id"] for polygon in kept}
+    hand = {key: value for key, value in sheet.members("hand").items() if key not in ("poses", "moves")}
+    given = {"hand": hand} if sheet.shared_hand and not any(place[0] == "hand" for place in wrong) else {}
     palette = sheet.members("palette")
     background = document.get("background")
     try:
@@ -127,6 +131,7 @@ def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) 
                     **{"format": "mien-toon", "version": 1, "name": "mended"},
                     "background": background if background in palette else GREY,
                     "palette": {name: code if _is_color(code) else GREY for name, code in palette.items()},
+                    **given,
                     "parts": parts,
                     "polygons": [dict(_clipped(polygon, ids)) for polygon in kept],
                 }
@@ -165,7 +170,7 @@ def _broken(rule: str, what: str, *, line: int | None = None, hint: str = "") ->
 
 
 def _integer(digits: str) -> float:
-    """Python refuses to read whole numbers of thousands of digits."""
+    """Python refuses to read whole found_at of thousands of digits."""
     return int(digits) if len(digits) < 18 else float(digits)
 
 

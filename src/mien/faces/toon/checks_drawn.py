@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -15,22 +15,22 @@ SAMPLES = 400
 """Vertices of an outline that are looked for in another one."""
 
 
-def find_misplaced(character: Character, numbers: dict[str, int]) -> Iterator[Fault]:
+def find_misplaced(character: Character, places: Mapping[str, Place]) -> Iterator[Fault]:
     """Faults of places at rest.
 
     Args:
         character: of the document, perhaps without polygons that cannot be read.
-        numbers: those of the polygons in the document, by id.
+        places: of the polygons in the document, by id.
     """
     rest = rest_of(character)
     outlines = {polygon.id: Shape(polygon, rest).rest for polygon in character.polygons}
-    yield from _holes(character, outlines, numbers)
+    yield from _holes(character, outlines, places)
     for eye in EYES:
-        yield from _pupil(character, rest, eye, outlines, numbers)
-    yield from _unseen(character, outlines, numbers)
+        yield from _pupil(character, rest, eye, outlines, places)
+    yield from _unseen(character, outlines, places)
 
 
-def _holes(character: Character, outlines: dict[str, Contours], numbers: dict[str, int]) -> Iterator[Fault]:
+def _holes(character: Character, outlines: dict[str, Contours], places: Mapping[str, Place]) -> Iterator[Fault]:
     faces = [outlines[polygon.id] for polygon in character.polygons if polygon.kind == "face"]
     holes = [polygon for polygon in character.polygons if polygon.kind == "hole"]
     if holes and not faces and character.mode == "strict":
@@ -40,7 +40,7 @@ def _holes(character: Character, outlines: dict[str, Contours], numbers: dict[st
         inside = np.logical_or.reduce([find_inside(vertices, face) for face in faces])
         if inside.all():
             continue
-        place: Place = ("polygons", numbers[polygon.id])
+        place = places[polygon.id]
         x, y = vertices[~inside][0]
         what = "crosses the outline of the face" if inside.any() else "lies wholly outside the face"
         strict = character.mode == "strict" or not inside.any()
@@ -48,7 +48,7 @@ def _holes(character: Character, outlines: dict[str, Contours], numbers: dict[st
 
 
 def _pupil(
-    character: Character, rest: Moment, eye: str, outlines: dict[str, Contours], numbers: dict[str, int]
+    character: Character, rest: Moment, eye: str, outlines: dict[str, Contours], places: Mapping[str, Place]
 ) -> Iterator[Fault]:
     pupil = f"P{eye[1]}"
     lids = (Stretch(Line(eye, lower=lower), character.features[eye]) for lower in (False, True))
@@ -65,7 +65,7 @@ def _pupil(
         middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
         if not polygon.clip and not find_inside(middle[None], opening)[0]:
             what = f"its middle is not inside the eye {eye}"
-            yield Fault("pupil", ("polygons", numbers[polygon.id]), what, got=f"({middle[0]:g}, {middle[1]:g})")
+            yield Fault("pupil", places[polygon.id], what, got=f"({middle[0]:g}, {middle[1]:g})")
     if character.mode == "strict" or not any(not polygon.clip for polygon in drawn):
         return
     for code in (f"{pupil}H", f"{pupil}V"):
@@ -76,7 +76,7 @@ def _pupil(
                 yield Fault("gaze", ("motors", code, key), f"takes the pupil out of the eye {eye}", got=f"{offset:g}")
 
 
-def _unseen(character: Character, outlines: dict[str, Contours], numbers: dict[str, int]) -> Iterator[Fault]:
+def _unseen(character: Character, outlines: dict[str, Contours], places: Mapping[str, Place]) -> Iterator[Fault]:
     size = np.array(character.size)
     for polygon in character.polygons:
         vertices = np.concatenate(outlines[polygon.id])
@@ -85,7 +85,7 @@ def _unseen(character: Character, outlines: dict[str, Contours], numbers: dict[s
             x, y = vertices.mean(axis=0)
             what = "lies outside the canvas"
             wanted = f"something within {size[0]:g} x {size[1]:g}"
-            yield Fault("canvas", ("polygons", numbers[polygon.id]), what, wanted, f"about ({x:.4g}, {y:.4g})")
+            yield Fault("canvas", places[polygon.id], what, wanted, f"about ({x:.4g}, {y:.4g})")
     if ((np.array(character.head.center) < 0.0) | (np.array(character.head.center) > size)).any():
         yield Fault("canvas", ("head", "center"), "lies outside the canvas", f"within {size[0]:g} x {size[1]:g}")
 

@@ -112,6 +112,12 @@ def _tables(sheet: Sheet) -> Iterator[Fault]:
             if wrong is not None:
                 before, got = table[wrong - 1][0], table[wrong][0]
                 yield Fault("table", (*place, wrong), "comes before the row above it", f"above {before:g}", f"{got:g}")
+    for name in sheet.members("hand", "moves"):
+        times = [key["time"] for key in sheet.sound("hand", "moves", name) or ()]
+        for row, (before, got) in enumerate(pairwise(times), 1):
+            if before >= got:
+                moment: Place = ("hand", "moves", name, row, "time")
+                yield Fault("table", moment, "is not after the key above it", f"above {before:g}", f"{got:g}")
     for place, line in sheet.lines():
         start, end = line.get("range", (-1.0, 1.0))
         if start >= end:

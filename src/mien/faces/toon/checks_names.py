@@ -8,6 +8,7 @@ from typing import Any
 from .checks_faults import Fault, Place
 from .checks_schema import suggest
 from .checks_sheet import Sheet
+from .hands import PART, SLOTS, hand_names
 from .motors import motors
 from .reader import COLOR, FEATURE_POINTS
 from .schema import find_extensions
@@ -20,7 +21,8 @@ def find_wrong_names(sheet: Sheet) -> Iterator[Fault]:
     yield from _ids(sheet)
     yield from _colors(sheet)
     yield from _attachments(sheet)
-    yield from _expressions(sheet)
+    yield from _hand(sheet)
+    yield from _values(sheet)
     yield from _unused(sheet)
     if sheet.strict:
         for place in find_extensions(sheet.document):
@@ -39,6 +41,7 @@ def _ids(sheet: Sheet) -> Iterator[Fault]:
 
 def _colors(sheet: Sheet) -> Iterator[Fault]:
     places: list[Place] = [("background",), *(("polygons", number, "fill") for number, _ in sheet.polygons)]
+    places += [("hand", slot) for slot in SLOTS]
     known = sheet.members("palette")
     for place in places:
         name = sheet.sound(*place)
@@ -78,14 +81,25 @@ def _cutters(polygon: Mapping[str, Any]) -> list[str]:
     return [clip] if isinstance(clip, str) else list(clip)
 
 
-def _expressions(sheet: Sheet) -> Iterator[Fault]:
-    for name in sheet.members("expressions"):
-        for code, value in (sheet.sound("expressions", name) or {}).items():
-            place: Place = ("expressions", name, code)
-            yield from _named({code: code}, place[:-1], code, "motor", sheet.motors)
+def _values(sheet: Sheet) -> Iterator[Fault]:
+    for place, values in sheet.values():
+        for code, value in values.items():
+            yield from _named({code: code}, place, code, "motor", sheet.motors)
             low, high = _range(sheet, code)
             if not low <= value <= high:
-                yield Fault("range", place, f"is more than {code} can do", f"from {low:g} to {high:g}", f"{value:g}")
+                wanted = f"from {low:g} to {high:g}"
+                yield Fault("range", (*place, code), f"is more than {code} can do", wanted, f"{value:g}")
+
+
+def _hand(sheet: Sheet) -> Iterator[Fault]:
+    yield from _named(sheet.members("hand"), ("hand",), "use", "hand", hand_names())
+    hand = sheet.shared_hand
+    if hand is not None and PART in sheet.members("parts"):
+        yield Fault("repeated id", ("parts", PART), f"{PART!r} is the part of the shipped hand {hand.name!r}")
+    taken = hand.ids if hand is not None else ()
+    for number, name in sheet.ids:
+        if name in taken:
+            yield Fault("repeated id", ("polygons", number, "id"), f"{name!r} is a polygon of the shipped hand")
 
 
 def _range(sheet: Sheet, code: str) -> tuple[float, float]:
@@ -102,6 +116,7 @@ def _unused(sheet: Sheet) -> Iterator[Fault]:
     if not everyone:
         return
     fills = {str(polygon.get("fill")) for polygon in everyone} | {str(sheet.value("background"))}
+    fills |= {str(sheet.value("hand", slot)) for slot in SLOTS}
     for key, used in (("palette", fills), ("parts", {str(polygon.get("part")) for polygon in everyone})):
         for name in sheet.members(key):
             if name not in used:

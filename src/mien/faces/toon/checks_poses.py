@@ -9,7 +9,7 @@ import numpy as np
 
 from mien.core import MienError, Pose
 
-from .checks_faults import Fault
+from .checks_faults import Fault, Place
 from .lines import rest_of
 from .motors import motors
 from .polygons import Shape
@@ -23,12 +23,12 @@ WILD = 1.0
 Values = Mapping[str, float]
 
 
-def find_wild_poses(face: ToonFace, numbers: dict[str, int], poses: int = POSES) -> Iterator[Fault]:
+def find_wild_poses(face: ToonFace, places: Mapping[str, Place], poses: int = POSES) -> Iterator[Fault]:
     """Polygons that have no finite place in some pose, or one far away; each with the least that makes it so.
 
     Args:
         face: without faults at rest.
-        numbers: those of the polygons in the document, by id.
+        places: of the polygons in the document, by id.
         poses: how many are tried.
     """
     reach = _reaches(face)
@@ -41,7 +41,7 @@ def find_wild_poses(face: ToonFace, numbers: dict[str, int], poses: int = POSES)
             least = _simplify(face, values, name, rule)
             pose = ", ".join(f"{code} {value:.3g}" for code, value in least.items())
             what = "has no finite place" if rule == "pose" else "goes far out of the canvas"
-            yield Fault(rule, ("polygons", numbers[name]), f"{name!r} {what}", got=pose or "the pose at rest")
+            yield Fault(rule, places[name], f"{name!r} {what}", got=pose or "the pose at rest")
 
 
 def _reaches(face: ToonFace) -> dict[str, tuple[float, float]]:

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from .checks_faults import Fault, Place
+from .hands import SharedHand, hand_names
 from .motors import motors
 from .reader import PAPER_FEATURES
 
@@ -73,7 +74,24 @@ class Sheet:
     @cached_property
     def motors(self) -> frozenset[str]:
         """Motors that it has limits for or, as the schema says already, should have."""
-        return frozenset([code for code, motor in motors().items() if motor.paper] + [*self.members("motors")])
+        paper = [code for code, motor in motors().items() if motor.paper]
+        hand = self.shared_hand
+        return frozenset([*paper, *self.members("motors"), *(hand.limits if hand else ())])
+
+    @property
+    def shared_hand(self) -> SharedHand | None:
+        """The shipped hand that it asks for, if there is such a one."""
+        name = self.sound("hand", "use")
+        return SharedHand(name, (0.0, 0.0), 1.0, {}) if name in hand_names() else None
+
+    def values(self) -> Iterator[tuple[Place, Mapping[str, float]]]:
+        """Every sound object of values by motor: expressions, poses of the hand and keys of its moves."""
+        places: list[Place] = [("expressions", name) for name in self.members("expressions")]
+        places += [("hand", "poses", name) for name in self.members("hand", "poses")]
+        for name in self.members("hand", "moves"):
+            keys = self.sound("hand", "moves", name) or ()
+            places += [("hand", "moves", name, row, "values") for row in range(len(keys))]
+        yield from ((place, found) for place in places if (found := self.sound(*place)) is not None)
 
     def drivers(self) -> Iterator[tuple[Place, Mapping[str, Any]]]:
         """Every driver of sound polygons and parts."""

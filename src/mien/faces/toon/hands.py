@@ -98,6 +98,11 @@ class SharedHand:
         # Those that move the hand two ways rest in the middle.
         return {code: Limits(-1.0, 1.0) if code in both else Limits() for code in {each["motor"] for each in drivers}}
 
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """Of its polygons."""
+        return tuple(row["id"] for row in _document(self.name)["polygons"])
+
     def drivers(self, reader: Reader) -> tuple[Driver, ...]:
         """What moves the whole hand."""
         return tuple(
