@@ -131,6 +131,32 @@ def _encode_runs(samples, codes, opaque, out):
         fill(out[first + 1 : x], out[first])
 
 
+@kernel()
+def _fill_mask(
+    edges, ways, starts, nonzero, box, top, bottom, heads, following, active, line, turns, cells, touched, masked
+):  # fmt: skip
+    """Shares of rows top:bottom of a mask, from its ``box`` and shape, to ``masked`` (band_rows, W)."""
+    shape, first, end = box[SHAPE], max(box[FIRST], top), min(box[END], bottom)
+    list_edges(edges, starts[shape], starts[shape + 1], first, end, heads, following)
+    count = 0
+    for row in range(first, end):
+        count, runs = sweep_row(
+            edges, ways, nonzero[shape], row, box[LEFT], box[RIGHT], heads[row - first], following, active, count, line,
+            turns, cells, touched,
+        )  # fmt: skip
+        _mask_row(masked[row - top], cells, touched, runs, box[LEFT], box[RIGHT])
+
+
+@kernel()
+def _clip_shares(shares, clips, first, end, masks, masked, row, top, left, right):
+    """Change the shares of a path in a row by its clips first:end."""
+    for c in range(first, end):
+        mask = clips[c, 0]
+        begin, stop = max(left, masks[mask, LEFT]), min(right, masks[mask, RIGHT])
+        if masks[mask, FIRST] <= row and row < masks[mask, END] and begin < stop:
+            _clip_row(shares[begin:stop], masked[mask, row - top, begin:stop], clips[c, 1])
+
+
 @kernel(
     "i8, i8, i8, f8[:,:], i4[:], i8[:], u1[:], i8[:,:], u8[:], i8[:,:], i8[:,:], u8[:], u1[:], "
     "u8[:,:], f8[:], i4[:,:], i4[:], i4[:], i4[:], f8[:,:], i4[:], u2[:], u2[:,:,:], u1[:], u4[:,:]"
@@ -170,21 +196,15 @@ def fill_bands(
             left, right = paths[p, LEFT], paths[p, RIGHT]
             if first >= end or left >= right:
                 continue
-            clipped = paths[p, CLIPS] < paths[p, CLIPS_END]
-            for c in range(paths[p, CLIPS], paths[p, CLIPS_END]):
+            clip, clips_end = paths[p, CLIPS], paths[p, CLIPS_END]
+            for c in range(clip, clips_end):
                 mask = clips[c, 0]
-                if ready[mask]:
-                    continue
-                ready[mask] = 1
-                shape, upper, lower = masks[mask, SHAPE], max(masks[mask, FIRST], top), min(masks[mask, END], bottom)
-                list_edges(edges, starts[shape], starts[shape + 1], upper, lower, heads, following)
-                count = 0
-                for row in range(upper, lower):
-                    count, runs = sweep_row(
-                        edges, ways, nonzero[shape], row, masks[mask, LEFT], masks[mask, RIGHT], heads[row - upper],
-                        following, active, count, line, turns, cells, touched,
+                if not ready[mask]:
+                    ready[mask] = 1
+                    _fill_mask(
+                        edges, ways, starts, nonzero, masks[mask], top, bottom, heads, following, active, line, turns,
+                        cells, touched, masked[mask],
                     )  # fmt: skip
-                    _mask_row(masked[mask, row - top], cells, touched, runs, masks[mask, LEFT], masks[mask, RIGHT])
             shape, color, alpha = paths[p, SHAPE], colors[p], paths[p, ALPHA]
             list_edges(edges, starts[shape], starts[shape + 1], first, end, heads, following)
             count = 0
@@ -193,17 +213,12 @@ def fill_bands(
                     edges, ways, nonzero[shape], row, left, right, heads[row - first], following, active, count, line,
                     turns, cells, touched,
                 )  # fmt: skip
-                if not clipped:
+                if clip == clips_end:
                     _paint_row(samples[row - top], color, alpha, cells, touched, runs, left, right)
-                    continue
-                _mask_row(shares, cells, touched, runs, left, right)
-                for c in range(paths[p, CLIPS], paths[p, CLIPS_END]):
-                    mask = clips[c, 0]
-                    if masks[mask, FIRST] <= row < masks[mask, END]:
-                        begin, stop = max(left, masks[mask, LEFT]), min(right, masks[mask, RIGHT])
-                        if begin < stop:
-                            _clip_row(shares[begin:stop], masked[mask, row - top, begin:stop], clips[c, 1])
-                _paint_shares(samples[row - top, left:right], color, alpha, shares[left:right])
+                else:
+                    _mask_row(shares, cells, touched, runs, left, right)
+                    _clip_shares(shares, clips, clip, clips_end, masks, masked, row, top, left, right)
+                    _paint_shares(samples[row - top, left:right], color, alpha, shares[left:right])
         for row in range(top, bottom):
             opaque = behind[row] >> np.uint64(48) == np.uint64(ONE)
             _encode_runs(samples[row - top], codes, opaque, out[row])
