@@ -12,7 +12,7 @@ from pathlib import Path
 from mien.core import LoadError
 
 from .svg_reader_outlines import Affine, Contour, Outline, count_points, ellipse, scale_of, then, transform
-from .svg_reader_paints import Paint, Paints, parse_share
+from .svg_reader_paints import REFERENCE, Paint, Paints, parse_share
 from .svg_reader_paths import parse_length, parse_transform
 from .svg_reader_shapes import MOST_POINTS, SHAPES, fit_view, read_attribute, read_canvas, read_outline, too_many_points
 from .svg_reader_style import INITIAL, cascade, read_rules
@@ -41,7 +41,7 @@ REASONS = {
 }
 """Why elements are left out."""
 
-UNSHOWN = ("clip-path", "mask", "filter", "stroke-dasharray")
+UNSHOWN = ("mask", "filter", "stroke-dasharray")
 """Properties that change what is seen and are not followed."""
 
 
@@ -57,6 +57,7 @@ class SvgShape:
         color: sRGB and alpha 0..1.
         even_odd: whether what is enclosed twice is a hole.
         width: of the stroke, in the drawing's units; 0 for a filled shape.
+        clips: outlines that it is seen in only, in all of them at once.
     """
 
     names: tuple[str, ...]
@@ -66,6 +67,7 @@ class SvgShape:
     color: Paint
     even_odd: bool = False
     width: float = 0.0
+    clips: tuple[Outline, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -116,6 +118,7 @@ class _Place:
         view: width and height that percentages are of.
         opacity: of the groups.
         depth: how many there are around it.
+        clips: outlines that it is seen in only.
     """
 
     affine: Affine
@@ -125,6 +128,7 @@ class _Place:
     view: tuple[float, float]
     opacity: float
     depth: int = 0
+    clips: tuple[Outline, ...] = ()
 
 
 class _Walk:
@@ -162,7 +166,10 @@ class _Walk:
         own = tuple(element.attributes[key] for key in ("label", "id") if key in element.attributes)
         opacity = around.opacity * self._share(element, style["opacity"])
         groups = (*around.names, *around.groups)
-        place = _Place(then(turned, around.affine), style, own, groups, around.view, opacity, around.depth + 1)
+        depth, clips = around.depth + 1, around.clips
+        place = _Place(then(turned, around.affine), style, own, groups, around.view, opacity, depth, clips)
+        if style["clip-path"] != "none":
+            place = replace(place, clips=(*clips, *self._clip(element, place)))
         if element.name in GROUPS:
             if element.name == "svg" and element is not self._root:
                 place = self._enter_view(element, element.attributes, place)
@@ -176,6 +183,23 @@ class _Walk:
             self._remarks.add(
                 element.line, f"<{element.name}> is left out: {REASONS.get(element.name, 'it is no shape')}"
             )
+
+    def _clip(self, element: Element, place: _Place) -> tuple[Outline, ...]:
+        """What an element is clipped by; nothing, with a remark, where that cannot be followed."""
+        match = REFERENCE.fullmatch(place.style["clip-path"].strip())
+        target = self._by_id.get(match[1]) if match else None
+        bounded = target is not None and target.attributes.get("clipPathUnits") == "objectBoundingBox"
+        if target is None or target.name != "clipPath" or bounded:
+            self._remarks.add(element.line, f"clip-path of <{element.name}> is not followed")
+            return ()
+        outline: Outline = ()
+        for child in target.children:
+            if child.name in SHAPES:
+                turned = read_attribute(self._path, child, "transform", parse_transform, "")
+                outline += transform(self._outline(child, place.view), then(turned, place.affine))
+            elif child.name not in SILENT:
+                self._remarks.add(child.line, f"<{child.name}> in <clipPath> is left out: only shapes are read")
+        return (outline,) if outline else ()
 
     def _use(self, element: Element, place: _Place) -> None:
         href = element.attributes.get("href", "").strip()
@@ -215,9 +239,8 @@ class _Walk:
         filled = tuple(contour for contour in outline if len(contour.segments) > 1 or len(contour.segments[0]) > 1)
         if filled and element.name != "line" and (color := self._color(element, place, "fill")):
             closed = tuple(replace(contour, closed=True) for contour in filled)
-            self.shapes.append(
-                SvgShape(place.names, place.groups, element.line, closed, color, place.style["fill-rule"] == "evenodd")
-            )
+            even_odd = place.style["fill-rule"] == "evenodd"
+            self._add(element, place, SvgShape(place.names, place.groups, element.line, closed, color, even_odd))
         if outline and (color := self._color(element, place, "stroke")):
             width = self._length_of(element, place.style["stroke-width"], place.view) * scale_of(place.affine)
             if width > 0.0:
@@ -241,9 +264,17 @@ class _Walk:
                 lines.append(contour)
             elif place.style["stroke-linecap"] == "round":
                 dot = ellipse(*contour.start, width / 2.0, width / 2.0)
-                self.shapes.append(SvgShape(place.names, place.groups, element.line, dot, color))
+                self._add(element, place, SvgShape(place.names, place.groups, element.line, dot, color))
         if lines:
-            self.shapes.append(SvgShape(place.names, place.groups, element.line, tuple(lines), color, width=width))
+            stroke = SvgShape(place.names, place.groups, element.line, tuple(lines), color, width=width)
+            self._add(element, place, stroke)
+
+    def _add(self, element: Element, place: _Place, shape: SvgShape) -> None:
+        """Keeps a shape with its clips, whose points count for each shape that they clip."""
+        self._points += sum(map(count_points, place.clips))
+        if self._points > MOST_POINTS:
+            raise too_many_points(self._path, element)
+        self.shapes.append(replace(shape, clips=place.clips))
 
     def _color(self, element: Element, place: _Place, of: str) -> Paint | None:
         color = self._paints.find(place.style[of], place.style, element.line)

@@ -10,7 +10,7 @@ from functools import cache
 from importlib import resources
 
 from .svg_reader import SvgDrawing, SvgShape
-from .svg_reader_outlines import Affine, Contour, Point, flatten, thin, transform
+from .svg_reader_outlines import Affine, Contour, Outline, Point, flatten, thin, transform
 from .svg_reader_paints import Paint
 
 SMALLEST, LARGEST, USUAL = 200.0, 2000.0, 400.0
@@ -91,6 +91,22 @@ def box_of(points: Iterable[Point]) -> Box:
     return Box(min(xs), min(ys), max(xs), max(ys))
 
 
+def outline_box(outline: Outline, tolerance: float) -> Box:
+    """The box around an outline."""
+    return box_of(point for contour in outline for point in flatten(contour, tolerance))
+
+
+def meet(boxes: Iterable[Box]) -> Box:
+    """What boxes have in common, of which there is one at least; its sides are below 0 where that is nothing."""
+    found = list(boxes)
+    return Box(
+        max(box.left for box in found),
+        max(box.top for box in found),
+        min(box.right for box in found),
+        min(box.bottom for box in found),
+    )
+
+
 def join(boxes: Iterable[Box]) -> Box:
     """The box around boxes, of which there is one at least."""
     found = list(boxes)
@@ -109,7 +125,7 @@ class Piece:
     Attributes:
         shape: as it was read, its outline on the canvas.
         contours: points along it, of each contour.
-        box: around it, without the width of a stroke.
+        box: around what is seen of it, without the width of a stroke.
         role: what its name says it is, such as ``pupil``; empty where it says nothing.
         lower: its name says that it is the lower one of two.
         named: its own name says so, not that of a group around it.
@@ -160,13 +176,22 @@ def make_pieces(drawing: SvgDrawing, tolerance: float) -> tuple[tuple[float, flo
     size = (round(drawing.size[0] * scale, 2), round(drawing.size[1] * scale, 2))
     affine: Affine = (scale, 0.0, 0.0, scale, 0.0, 0.0)
     shapes = [
-        replace(part, outline=thin(transform(part.outline, affine), tolerance), width=part.width * scale)
+        replace(
+            part,
+            outline=thin(transform(part.outline, affine), tolerance),
+            width=part.width * scale,
+            clips=tuple(thin(transform(clip, affine), tolerance) for clip in part.clips),
+        )
         for shape in drawing.shapes
         for part in _separate(shape)
     ]
     canvas = Box(0.0, 0.0, *size)
     pieces = [_measure(shape, tolerance) for shape in shapes]
-    seen = [piece for piece in pieces if piece.box.grown(piece.shape.width / 2.0).meets(canvas)]
+    seen = [
+        piece
+        for piece in pieces
+        if piece.box.width >= 0.0 and piece.box.height >= 0.0 and piece.box.grown(piece.shape.width / 2.0).meets(canvas)
+    ]
     background = None
     while seen and _is_background(seen[0], canvas):
         background = seen.pop(0).shape.color
@@ -179,7 +204,9 @@ def _measure(shape: SvgShape, tolerance: float) -> Piece:
     named = bool(role)
     if not named:
         role, lower = find_role(shape.groups)
-    return Piece(shape, contours, box_of(point for contour in contours for point in contour), role, lower, named)
+    boxes = [box_of(point for contour in contours for point in contour)]
+    boxes += [outline_box(clip, tolerance) for clip in shape.clips]
+    return Piece(shape, contours, meet(boxes), role, lower, named)
 
 
 def _is_background(piece: Piece, canvas: Box) -> bool:

@@ -12,7 +12,7 @@ from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette, mix
 from .toon_from_svg_guess import Found, Part, is_flat
 from .toon_from_svg_lenses import lens_outline
-from .toon_from_svg_pieces import Box, Piece, contrast, luminance
+from .toon_from_svg_pieces import Box, Piece, contrast, luminance, outline_box
 from .toon_from_svg_rig import Rig
 
 Entry = dict[str, Any]
@@ -27,6 +27,12 @@ BEHIND = {"depth": -0.2, "shorten": 0.1}
 NOSE = {"depth": 0.3, "bulge": 0.4, "shorten": 1}
 EAR = {"depth": -0.1, "shorten": 0.2}
 """How far shapes lie before the axis of the head, in its radii, and how they go along: our choice."""
+
+PLACES = ("depth", "bulge", "shorten", "body")
+"""Keys that say how a polygon goes along with the head."""
+
+ALIKE, FINE = 0.5, 0.05
+"""Drawing units by which a clip may differ from a shape that it is, and to which both are measured."""
 
 THROAT: Paint = (0.36, 0.12, 0.17, 1.0)
 TONGUE: Paint = (0.89, 0.46, 0.49, 1.0)
@@ -48,8 +54,12 @@ LONG_FACE = 1.1
 def make_polygons(found: Found, rig: Rig, palette: Palette, behind: Paint) -> list[Entry]:
     """The ``polygons`` of the file, in the order in which they are painted on a background."""
     maker = _Maker(found, rig, palette, behind)
-    entries = [entry for part in found.parts for entry in maker.entries(part)]
-    return list(_keep_order([entry for entry in entries if entry]))
+    entries: list[Entry] = []
+    for part in found.parts:
+        for entry in filter(None, maker.entries(part)):
+            entries += [*maker.cutters, entry]
+            maker.cutters.clear()
+    return list(_keep_order(entries))
 
 
 def _keep_order(entries: Sequence[Entry]) -> Iterator[Entry]:
@@ -68,7 +78,9 @@ class _Maker:
 
     def __init__(self, found: Found, rig: Rig, palette: Palette, behind: Paint) -> None:
         self._found, self._rig, self._palette, self._behind = found, rig, palette, behind
+        self.cutters: list[Entry] = []
         self._ids: set[str] = set()
+        self._shown: dict[str, Box] = {}
         self._done: set[str] = set()
         self._face_seen = False
 
@@ -268,8 +280,25 @@ class _Maker:
         if piece.shape.color[3] < 1.0:
             brush["opacity"] = round(piece.shape.color[3], 3)
         fill = self._palette.add(piece.shape.color, part.role)
+        if "clip" not in keys and piece.shape.clips:
+            places = {key: value for key, value in keys.items() if key in PLACES}
+            brush["clip"] = [self._cutter(clip, fill, places) for clip in piece.shape.clips]
         own = _clean(piece.shape.names[0]) if label == "shape" and piece.shape.names else label
-        return self._add(own, kind, fill, path=self._data(piece.shape.outline), **brush, **keys)
+        entry = self._add(own, kind, fill, path=self._data(piece.shape.outline), **brush, **keys)
+        if not piece.stroked:
+            self._shown[entry["id"]] = outline_box(piece.shape.outline, FINE)
+        return entry
+
+    def _cutter(self, clip: Outline, fill: str, places: Entry) -> str:
+        """The id of what a shape is clipped by: a shape that is there already, else one that is not seen."""
+        box = outline_box(clip, FINE)
+        for name, shown in self._shown.items():
+            if shown.grown(ALIKE).holds(box) and box.grown(ALIKE).holds(shown):
+                return name
+        cutter = self._add("clip", "free", fill, path=self._data(clip), opacity=0, **places)
+        self.cutters.append(cutter)
+        self._shown[cutter["id"]] = box
+        return str(cutter["id"])
 
     def _add(self, label: str, kind: str, fill: str, **keys: Any) -> Entry:
         name, number = label, 1

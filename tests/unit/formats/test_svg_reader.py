@@ -179,6 +179,20 @@ def test_a_gradient_is_the_mean_of_its_colours_with_a_remark(read):
     assert any("<radialGradient> 'b' becomes the mean" in remark for remark in drawing.remarks)
 
 
+def test_clips_of_groups_and_shapes_add_up(read):
+    clips = '<clipPath id="a"><circle r="5"/></clipPath><clipPath id="b"><rect width="4" height="4"/></clipPath>'
+    drawing = read(
+        f'<defs>{clips}</defs><g clip-path="url(#a)" transform="translate(10)">'
+        '<rect width="9" height="9" clip-path="url(#b)" stroke="#000"/></g>'
+        '<rect width="9" height="9" clip-path="url(#c)"/>'
+    )
+    fill, stroke, free = drawing.shapes
+    assert [ends(clip)[0][0] for clip in fill.clips] == [(15.0, 0.0), (10.0, 0.0)]
+    assert stroke.clips == fill.clips
+    assert free.clips == ()
+    assert [text.partition(": ")[2] for text in drawing.remarks] == ["clip-path of <rect> is not followed"]
+
+
 def test_a_dot_is_a_stroke_without_length_and_with_round_ends(read):
     drawing = read('<path d="M5 5h0" stroke="#000" stroke-width="4" stroke-linecap="round"/>')
     (dot,) = drawing.shapes

@@ -98,11 +98,12 @@ def test_a_doctype_without_declarations_is_not_fetched(tmp_path):
         f'<polygon points="{"1,2 " * 100_001}"/>',
         "".join(f'<path d="M0 0{"h1v1" * 25_001}"/>' for _ in range(3)),
         '<defs><path id="p" d="M0 0' + "h1v1" * 500 + '"/></defs>' + '<use href="#p"/>' * 200,
+        '<clipPath id="c"><path d="M0 0' + "h1v1" * 4_000 + f'"/></clipPath><g clip-path="url(#c)">{SQUARE * 50}</g>',
         '<defs><g id="g0"/>'
         + "".join(f'<g id="g{n}">{f"""<use href="#g{n - 1}"/>""" * 10}</g>' for n in range(1, 12))
         + '</defs><use href="#g11"/>',
     ],
-    ids=["path", "polygon", "paths", "uses", "use of use"],
+    ids=["path", "polygon", "paths", "uses", "clips", "use of use"],
 )
 def test_a_hundred_thousand_points_are_refused_in_two_seconds(tmp_path, inside):
     path = write(tmp_path, f"{HEAD}>{inside}</svg>")

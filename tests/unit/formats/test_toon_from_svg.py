@@ -206,6 +206,20 @@ def test_lips_around_an_opening_go_along_with_it(tmp_path):
     assert low[0] - low[1] > 50.0
 
 
+def test_a_shape_is_clipped_by_the_one_that_is_there_or_by_one_that_is_not_seen(tmp_path):
+    clips = (
+        '<clipPath id="a"><circle cx="18" cy="18" r="17"/></clipPath><clipPath id="b"><path d="M4 4h9v9z"/></clipPath>'
+    )
+    shade = '<path id="shade" d="M18 0h18v36H18z" fill="#e80" clip-path="url(#a)"/>'
+    patch = '<path id="patch" d="M0 0h18v9H0z" fill="#a50" clip-path="url(#b)"/>'
+    guessed = guess(tmp_path, clips + shade + patch + EYES + MOUTH)
+    polygons = {polygon["id"]: polygon for polygon in guessed.document["polygons"]}
+    assert polygons["shade"]["clip"] == ["face"]
+    assert polygons["patch"]["clip"] == ["clip"]
+    assert polygons["clip"]["opacity"] == 0
+    assert play(guessed).shape(play(guessed).neutral).paths[1].inside
+
+
 def test_the_canvas_has_the_usual_size_and_a_background_is_one(tmp_path):
     guessed = guess(tmp_path, EYES + MOUTH)
     assert guessed.document["size"] == [400.0, 400.0]
