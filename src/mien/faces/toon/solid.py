@@ -121,7 +121,7 @@ class OnSolid(ToonFace):
         def stand(number: int, contour: Floats, anchor: Floats) -> Iterator[Piece]:
             seen, ahead = egg.stand(contour, anchor)
             # Ears are seen before the head from their side; what stands on top of it stays behind it.
-            yield Piece(min(ahead, 1 if form.ears[number] else 0), (seen,))
+            yield Piece(min(ahead, 0) if not form.ears[number] else 2 * ahead, (seen,))
 
         return self._painted(self._pieces(contours, motion, paint, stand), pose)
 

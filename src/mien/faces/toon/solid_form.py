@@ -17,10 +17,10 @@ from .solid_rim import directions, measure_reach, reach
 Role = Literal["still", "front", "around", "out"]
 Indices = NDArray[np.int64]
 
-AT_RIM = 1.0
-"""What comes so near to the rim goes around the back."""
+AROUND = 0.15
+"""A polygon with more than this share of its vertices on the rim or beyond goes around the back: our choice."""
 
-OUT, OUTER = 1.08, 0.4
+OUT, OUTER = 1.08, 0.35
 """What reaches so far beyond the rim, with more than this share of its vertices, stands out if it is small."""
 
 SMALL, TINY = 0.5, 0.06
@@ -105,7 +105,7 @@ class Form:
 
     def at_rim(self, contours: Sequence[Floats]) -> list[NDArray[np.bool_]]:
         """(N,) of each contour (N, 2), from the head's middle, y up, which vertices lie on the rim or beyond."""
-        return [_shares(contour, self.radii) >= AT_RIM for contour in contours]
+        return [_shares(contour, self.radii) >= 1.0 for contour in contours]
 
     def on_canvas(self, contours: Sequence[Floats]) -> Contours:
         """Contours from the head's middle as they lie on the canvas, y up."""
@@ -176,7 +176,7 @@ def _role(polygon: Polygon, contours: Contours, radii: Floats, whole: float) -> 
     if small and shares.max() > OUT and (shares > 1.0).mean() > OUTER:
         return "out"
     painted = polygon.feature not in ("", *EARS) or (polygon.kind == "point" and small)
-    return "front" if painted or shares.max() < AT_RIM else "around"
+    return "front" if painted or (shares >= 1.0).mean() < AROUND else "around"
 
 
 def _shares(points: Floats, radii: Floats) -> Floats:

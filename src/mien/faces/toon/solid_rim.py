@@ -15,11 +15,14 @@ COUNT = 256
 INSIDE = 0.97
 """The rim lies this much within the outline, so that no gap opens between front and back."""
 
-GAP = 4
+GAP = 3
 """Over so many directions to both sides it does so, where the outline has a notch."""
 
 SLOPE = 2.0
 """From one direction to the next the reach grows at most by this share of the angle between them: our choice."""
+
+SMOOTH = 4
+"""Over so many directions to both sides the reach is smoothed, so that the horizon is: our choice."""
 
 LEAST = 1.0
 """Reach where there is nothing, drawing units."""
@@ -68,7 +71,9 @@ def measure_reach(polygons: Sequence[Sequence[Floats]], narrow: int) -> Floats:
     smooth = _around(opened, narrow // 2).mean(axis=0)
     inner = np.minimum(smooth, _around(far, GAP).min(axis=0))
     steps = np.abs(np.arange(-COUNT // 4, COUNT // 4 + 1))[:, None] * (2.0 * np.pi / COUNT)
-    return np.asarray(INSIDE * (_around(inner, COUNT // 4) * (1.0 + SLOPE * steps)).min(axis=0))
+    sloping = (_around(inner, COUNT // 4) * (1.0 + SLOPE * steps)).min(axis=0)
+    # Least values, then their means as far around: smooth, and never beyond what it was.
+    return np.asarray(INSIDE * _around(_around(sloping, SMOOTH).min(axis=0), SMOOTH).mean(axis=0))
 
 
 def _way_out(starts: Floats, ends: Floats, owner: NDArray[np.int64], way: Floats) -> float:
