@@ -3,6 +3,7 @@
 import copy
 import json
 import random
+from pathlib import Path
 from time import process_time
 
 import numpy as np
@@ -83,6 +84,7 @@ def test_files_that_are_none(tmp_path):
         file.truncate(50_000_000)
     assert MOST_BYTES < 50_000_000
     assert "is larger than" in only(check_file(large)).text()
+    assert "is larger than" in only(check_file(Path("/dev/zero"))).text()
 
 
 @pytest.mark.parametrize(("opening", "line"), [("[", 1), ('{"a":', 1), ("[\n", DEEPEST + 1)])

@@ -55,12 +55,14 @@ class Report:
 def check_file(path: Path) -> Report:
     """What is wrong with a file; one that cannot be read has that as its only fault."""
     try:
-        if path.is_file() and path.stat().st_size > MOST_BYTES:
-            what = f"is larger than {MOST_BYTES // 1_000_000} MB"
-            return _broken("file", what, hint="a face is some thousand bytes; simplify its outlines")
-        return check_bytes(path.read_bytes())
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
     except OSError as error:
         return _broken("file", f"cannot be read ({error.strerror})", hint="give the name of a face file")
+    if len(data) > MOST_BYTES:
+        what = f"is larger than {MOST_BYTES // 1_000_000} MB"
+        return _broken("file", what, hint="a face is some thousand bytes; simplify its outlines")
+    return check_bytes(data)
 
 
 def check_bytes(data: bytes, poses: int = POSES) -> Report:

@@ -121,7 +121,7 @@ def _unused(sheet: Sheet) -> Iterator[Fault]:
         for name in sheet.members(key):
             if name not in used:
                 yield Fault("unseen", (key, name), "is used by no polygon")
-    cutters = {name for polygon in everyone for name in _cutters(polygon)}
+    cutters = {name for _, polygon in sheet.polygons for name in _cutters(polygon)}
     for number, polygon in sheet.polygons:
         if polygon.get("opacity") == 0 and polygon.get("id") not in cutters:
             yield Fault("unseen", ("polygons", number, "opacity"), "nothing of it is seen")
