@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
 SECTIONS = {
     "Faces": ("hero", "three_views", "people", "strangers", "shading"),
-    "Expression": ("expressions", "presets", "mouth", "gaze"),
+    "Expression": ("expressions", "presets", "mouth", "gaze", "caricature"),
     "Motion": ("blink", "jaw", "strip", "filmstrip", "curves"),
     "Drawn faces": (
         "toons",
@@ -26,7 +26,9 @@ SECTIONS = {
         "toon_turns",
         "toon_solids",
         "toon_gaze",
+        "toon_hands",
         "toon_motors",
+        "toon_from_svg",
         "toon_palettes",
     ),
     "Parke's pictures": (
