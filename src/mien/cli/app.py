@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import faces, lipsync, params, play, presets, render, say, toon, vocab, voices, warmup
+from . import faces, lipsync, params, play, presets, render, replay, say, toon, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -22,6 +22,7 @@ for command in (
     lipsync.lipsync,
     render.render,
     play.play,
+    replay.replay,
     faces.faces,
     params.params,
     presets.presets,
