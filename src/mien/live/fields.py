@@ -199,7 +199,7 @@ def _cues(field: Field, value: object) -> tuple[tuple[float, float, str], ...]:
     return tuple(cues)
 
 
-LONGEST_SPEECH_S = 600.0
+LONGEST_SPEECH_S = 300.0
 
 
 def _number_schema(field: Field) -> dict[str, Any]:

@@ -17,6 +17,8 @@ FORMAT = "mien-live"
 VERSION = 1
 
 MOST_LOOPS = 100_000_000
+LOOP_S = (1e-3, 10.0)
+"""How long a loop can be, seconds."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,7 @@ def _header(value: dict[str, Any]) -> Header:
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise MienError(f"seed: want a whole number, got {show(seed)}")
     motions = tuple(read_motion(motion) for motion in read_list("motions", value.get("motions", []), 1000))
-    return Header(face, table, seed, read_number("loop_s", value.get("loop_s"), 1e-3, 10.0, "s"), amounts, motions)
+    return Header(face, table, seed, read_number("loop_s", value.get("loop_s"), *LOOP_S, "s"), amounts, motions)
 
 
 def _object(value: object) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from mien.core import Face, RangeError, UnknownNameError
 from mien.vocab import load_remap, pose_from, vocabulary
 from mien.vocab.posing import MOTORS
-from mien.vocab.remap import HALVES
+from mien.vocab.remap import whole
 
 
 class Names:
@@ -23,17 +23,16 @@ class Names:
         self.codes = vocabulary(MOTORS)
         self._given: dict[str, float] = {}
         links = load_remap(MOTORS, face.family).on(self.table).links
-        self._rows: dict[str, tuple[int, ...]] = {
-            code: tuple(
-                dict.fromkeys(
-                    self.table.index[link.parameter]
-                    for link in links
-                    if link.name in (code, code + HALVES[0], code + HALVES[1])
-                )
-            )
-            for code in self.codes.names
+        played = {code: [link for link in links if whole(link.name) == code] for code in self.codes.names}
+        self._rows = {
+            code: tuple(dict.fromkeys(self.table.index[link.parameter] for link in some))
+            for code, some in played.items()
         }
-        self._same = {link.name: (self.table.index[link.parameter], link.gain) for link in links if link.blend == "set"}
+        self._same = {
+            code: (self._rows[code][0], some[0].gain)
+            for code, some in played.items()
+            if len(some) == 1 and some[0].name == code
+        }
 
     def targets(self, values: Mapping[str, float]) -> dict[int, float]:
         """Row number and value of every motor that values by name mean; a later name wins.
@@ -44,15 +43,19 @@ class Names:
         """
         found: dict[int, float] = {}
         given = {name: value for name, value in values.items() if name not in self.table}
-        if given:
-            codes = self._read(given)
-            moved = pose_from(MOTORS, {**self._given, **codes}, self.face)
-            self._given.update(codes)
-            found = {row: float(moved.values[row]) for code in codes for row in self._rows[code]}
+        codes = {code: self.codes[code].check(value) for name, value in given.items() for code in self._resolve(name)}
+        shared = {code: value for code, value in codes.items() if code not in self._same}
+        for code in (code for code in codes if code not in shared):
+            number, gain = self._same[code]
+            found[number] = self._check_reach(code, codes[code], number, gain)
+        if shared:
+            moved = pose_from(MOTORS, {**self._given, **shared}, self.face)
+            found |= {row: float(moved.values[row]) for code in shared for row in self._rows[code]}
         own = {name: value for name, value in values.items() if name in self.table}
         for name, value in own.items():
             for row in self.table.resolve(name):
                 found[self.table.index[row]] = self.table[row].check(value)
+        self._given |= shared
         return found
 
     def read(self, values: Mapping[int, float], names: Iterable[str]) -> dict[str, float]:
@@ -79,22 +82,14 @@ class Names:
         """Let no code count any more."""
         self._given.clear()
 
-    def _read(self, values: Mapping[str, float]) -> dict[str, float]:
-        codes = {code: self.codes[code].check(value) for name, value in values.items() for code in self._resolve(name)}
-        for code, value in codes.items():
-            self._check_reach(code, value)
-        return codes
-
-    def _check_reach(self, code: str, value: float) -> None:
-        """A code that a row plays alone goes as far as that row."""
-        if code in self._same:
-            row, gain = self._same[code]
-            limits = self.table.rows[row]
-            if not limits.low <= value * gain <= limits.high:
-                low, high = sorted((limits.low / gain, limits.high / gain))
-                raise RangeError(
-                    f"{code}: {value:g} is out of range — on {self.face.name!r} it goes from {low:g} to {high:g}"
-                )
+    def _check_reach(self, code: str, value: float, row: int, gain: float) -> float:
+        """What the row that plays a code alone is set to; the code goes as far as that row."""
+        limits, moved = self.table.rows[row], value * gain
+        if not limits.low <= moved <= limits.high:
+            low, high = sorted((limits.low / gain, limits.high / gain))
+            name = self.face.name
+            raise RangeError(f"{code}: {value:g} is out of range — on {name!r} it goes from {low:g} to {high:g}")
+        return moved
 
     def _resolve(self, name: str) -> tuple[str, ...]:
         if name not in self.codes:

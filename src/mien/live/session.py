@@ -15,8 +15,9 @@ from mien.speech import Speech
 from mien.timeline import exact_rate
 from mien.vocab import vocabulary
 
+from .fields import read_number
 from .idle import Idle
-from .logs import Header, command_line, end_line
+from .logs import LOOP_S, Header, command_line, end_line
 from .looking import look_ways
 from .messages import IDLE_PARTS, Message, check_message, refusal
 from .mixing import CHANNELS, Mixer, Moment
@@ -33,7 +34,8 @@ GIVE_BACK_S = 0.25
 """Speech takes the mouth in this time, and gives it back in this."""
 
 MOST_SAID = 64
-"""Texts that can wait for being said."""
+MOST_SAID_S = 600.0
+"""Texts that can wait for being said, and how long they may be together."""
 
 STATE_ROLES = ("motion", "gaze", "contact")
 """Rows that ``state`` tells, if none are named."""
@@ -87,8 +89,7 @@ class Session:
         voice: Say | None = None,
         log: Callable[[str], object] | None = None,
     ) -> None:
-        if not loop_s > 0.0:
-            raise MienError(f"a loop of {loop_s} s — want more than 0")
+        read_number("loop_s", loop_s, *LOOP_S, "s")
         for part in idle:
             if part not in IDLE_PARTS:
                 raise UnknownNameError("part of idle life", part, IDLE_PARTS)
@@ -245,6 +246,8 @@ class Session:
             seed=self.seed + self._utterances,
             identity=message.id,
         )
+        if sum(each.loops for each in (*self._said, said)) * self.loop_s > MOST_SAID_S:
+            raise MienError(f"say: more than {MOST_SAID_S:g} s are waiting — wait for speech.ended, or interrupt")
         self._utterances += 1
         self._said.append(said)
         return {"loops": said.loops}

@@ -243,6 +243,29 @@ def test_texts_that_wait_are_bounded():
     assert kinds.count("ok") == 64
 
 
+@settings(max_examples=60, deadline=None)
+@given(
+    cues=st.lists(
+        st.tuples(st.floats(0, 2), st.floats(0, 2), st.sampled_from(["AA1", "P", "SIL", "S", "QQ", "1"])), max_size=6
+    ),
+    words=st.lists(st.tuples(st.floats(0, 9), st.floats(0, 9), st.text(max_size=5)), max_size=4),
+)
+def test_any_phones_are_said_or_refused(cues, words):
+    session = still("toon:gus")
+    ordered = [
+        [float(number + min(a, b) / 2), number + max(a, b) / 2, name] for number, (a, b, name) in enumerate(cues)
+    ]
+    reply = session.handle({"kind": "say", "text": "", "phones": ordered, "words": [list(word) for word in words]})
+    assert reply["kind"] in ("ok", "error")
+    assert np.isfinite(run(session, 9)[-1].pose.values).all()
+
+
+@pytest.mark.parametrize("loop_s", [0.0, -1.0, float("nan"), 1e-6, 100.0])
+def test_loops_have_sensible_lengths(loop_s):
+    with pytest.raises(MienError, match="loop_s"):
+        Session(face("head"), loop_s=loop_s)
+
+
 COMMANDS = st.one_of(
     st.builds(
         lambda name, value, over, change: {"kind": "move", "values": {name: value}, "over_ms": over, "change": change},
