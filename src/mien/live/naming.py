@@ -35,7 +35,7 @@ class Names:
         }
 
     def targets(self, values: Mapping[str, float]) -> dict[int, float]:
-        """Row number and value of every motor that values by name mean; a later name wins.
+        """Row number and value of every motor that values by name mean; the face's own names win over codes.
 
         Raises:
             UnknownNameError: a name is neither a parameter of the face nor a code.
