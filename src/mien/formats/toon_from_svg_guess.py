@@ -13,24 +13,30 @@ from pathlib import Path
 
 from mien.core import LoadError
 
-from .toon_from_svg_lenses import fit_lens
-from .toon_from_svg_pieces import Box, Piece, area, contrast, join, luminance
+from .toon_from_svg_judging import (
+    LIGHT,
+    box_size,
+    close,
+    could_be_head,
+    inside,
+    is_arch,
+    is_flat,
+    is_thin,
+    lighter,
+    same,
+    within,
+)
+from .toon_from_svg_pieces import Box, Piece, contrast, join, luminance
 
 SIDES = ("R", "L")
 EYE_ROLES = ("eye", "white", "pupil", "lid", "lash")
 MOUTH_ROLES = ("mouth", "lip", "teeth", "tongue")
-
-FACE_SHARE = 0.12
-"""Of the canvas that a shape covers at least to be taken for the face."""
 
 ALIKE = 0.3
 """How much the sides of two shapes may differ to be taken for a pair, as a share of the larger."""
 
 ASIDE = 0.08
 """How far the middle of a pair, or of a mouth, may lie from that of the face, as a share of its width."""
-
-LIGHT = 0.62
-"""Luminance above which a shape may be the white of an eye or teeth."""
 
 EYES_AT, EYES_SPREAD = 0.4, 0.2
 MOUTH_AT, MOUTH_SPREAD = 0.74, 0.17
@@ -41,15 +47,6 @@ PALE = 0.4
 
 LIPS = 0.65
 """Share of a mouth from which a shape in it is its opening, and what is around it are lips."""
-
-ARCH = 0.5
-"""Share of its box that an eye fills at most to be taken for the line of a smiling one."""
-
-FLAT = 0.01
-"""Area of a shape without height, as a share of the square of its width."""
-
-THIN = 0.2
-"""A mouth is drawn shut where its height is less than this share of its width."""
 
 LEAST = 0.08
 """Of the score that a face as in most drawings has: what is less sure is not taken for eyes or a mouth."""
@@ -116,8 +113,8 @@ class _Search:
     def _find_head(self, size: tuple[float, float]) -> None:
         """The largest shape that is called so, else the largest that could hold a face; else all there is."""
         named = [piece for piece in self._pieces if piece.role == "face"]
-        large = [piece for piece in self._free() if _could_be_head(piece, size)]
-        found = max([piece for piece in named if piece.named] or named or large, key=_size, default=None)
+        large = [piece for piece in self._free() if could_be_head(piece, size)]
+        found = max([piece for piece in named if piece.named] or named or large, key=box_size, default=None)
         self.skin = (1.0, 1.0, 1.0, 1.0)
         if found is None:
             self.face = join(piece.box for piece in self._pieces)
@@ -126,7 +123,7 @@ class _Search:
         for piece in self._pieces:
             if piece is found or (piece.named and piece.role == "face"):
                 self.roles[piece] = ("face", "")
-            elif piece.stroked and piece.role in ("", "face") and _same(piece.box, found.box):
+            elif piece.stroked and piece.role in ("", "face") and same(piece.box, found.box):
                 self.roles[piece] = ("outline", "")
         if not found.stroked:
             self.skin = found.shape.color
@@ -174,7 +171,7 @@ class _Search:
             if pair is None:
                 raise self._error("no two shapes alike, left and right in the upper half of a face, are found")
             room = self._candidates()
-            sides = {self._side(piece.box): [each for each in room if _within(each, piece)] for piece in pair}
+            sides = {self._side(piece.box): [each for each in room if within(each, piece)] for piece in pair}
         for side in SIDES:
             self._sort_eye(sides[side], side)
 
@@ -191,7 +188,7 @@ class _Search:
             others = [other for other in candidates if other.box.left >= self.face.x and self._alike(one, other)]
             if others:
                 pairs.append((one, min(others, key=lambda other: abs(other.box.y - one.box.y))))
-        return [pair for pair in pairs if not any(_inside(pair, other) for other in pairs)]
+        return [pair for pair in pairs if not any(inside(pair, other) for other in pairs)]
 
     def _alike(self, one: Piece, other: Piece) -> bool:
         a, b, face = one.box, other.box, self.face
@@ -213,7 +210,7 @@ class _Search:
     def _eye_score(self, pair: tuple[Piece, Piece]) -> float:
         """How much a pair looks like eyes: in their place, round, in strong contrast, with something in them."""
         piece = pair[0]
-        inner = [each for each in self._candidates() if _within(each, piece)]
+        inner = [each for each in self._candidates() if within(each, piece)]
         strength = max(contrast(each.shape.color, self.skin) for each in inner)
         height = (piece.box.y - self.face.top) / self.face.height
         place = math.exp(-(((height - EYES_AT) / EYES_SPREAD) ** 2))
@@ -232,23 +229,23 @@ class _Search:
             if piece.role == "white"
             or ((luminance(piece.shape.color) > LIGHT or inner) and piece.box.width > 0.55 * whole.width)
             or any(
-                _within(other, piece) and other.box.width > 0.3 * piece.box.width and _lighter(piece, other)
+                within(other, piece) and other.box.width > 0.3 * piece.box.width and lighter(piece, other)
                 for other in filled
             )
         ]
-        whites = [max(open_white, key=_size)] if open_white else []
+        whites = [max(open_white, key=box_size)] if open_white else []
         for piece in pieces:
             if piece.role in ("lid", "lash"):
                 self._take([piece], piece.role, side)
             elif piece in whites:
                 self._take([piece], "white", side)
-            elif not whites and _is_arch(piece):
+            elif not whites and is_arch(piece):
                 self._take([piece], "arc", side)
             elif piece.role == "pupil" or not piece.stroked:
                 self._take([piece], "pupil", side)
             elif piece.ring:
-                around = max(whites, key=_size, default=piece)
-                self._take([piece], "ring" if _close(piece.box, around.box) else "pupil", side)
+                around = max(whites, key=box_size, default=piece)
+                self._take([piece], "ring" if close(piece.box, around.box) else "pupil", side)
             else:
                 self._take([piece], "lash" if whites or inner or len(pieces) > 1 else "arc", side)
         if not whites and not any(self.roles[piece][0] in ("pupil", "ring", "arc") for piece in pieces):
@@ -265,7 +262,7 @@ class _Search:
             outer = self._guess_mouth()
             if outer is None:
                 raise self._error("eyes are there, but no shape or line in the middle below them")
-            pieces = [piece for piece in self._candidates() if _within(piece, outer)]
+            pieces = [piece for piece in self._candidates() if within(piece, outer)]
         self._sort_mouth(pieces)
 
     def _guess_mouth(self) -> Piece | None:
@@ -285,9 +282,9 @@ class _Search:
             return None
         # A light shape around a line is a muzzle, one around a dark shape may be the lips.
         line = best[3].stroked and not best[3].ring
-        outer = [each[3] for each in scored if _within(best[3], each[3]) and each[0] > LEAST]
+        outer = [each[3] for each in scored if within(best[3], each[3]) and each[0] > LEAST]
         holding = [piece for piece in outer if not line or piece is best[3] or luminance(piece.shape.color) < LIGHT]
-        return max(holding, key=_size)
+        return max(holding, key=box_size)
 
     def _eye_box(self, side: str) -> Box:
         return join(
@@ -304,24 +301,24 @@ class _Search:
             elif piece.role == "lip":
                 self._take([piece], "lip")
         rest = [piece for piece in pieces if piece not in self.roles]
-        lines = [piece for piece in rest if _is_thin(piece)]
+        lines = [piece for piece in rest if is_thin(piece)]
         # With what is between shut lips, or alone, narrow shapes are the lips; with teeth in it one is an opening.
         if len(lines) == len(pieces) or any(map(is_flat, rest)):
             self._take(lines, "mouth_line")
         rest = [piece for piece in rest if piece not in self.roles]
-        filled = sorted((piece for piece in rest if not piece.stroked), key=_size, reverse=True)
+        filled = sorted((piece for piece in rest if not piece.stroked), key=box_size, reverse=True)
         if filled:
             base = filled[0]
             self._take([base], "mouth")
             for piece in filled[1:]:
-                if _close(piece.box, base.box) and _size(piece) > LIPS * _size(base):
+                if close(piece.box, base.box) and box_size(piece) > LIPS * box_size(base):
                     self._take([piece], "mouth_ring")
                     continue
                 upper = piece.box.y < base.box.y
                 self._take([piece], "teeth" if luminance(piece.shape.color) > LIGHT or upper else "tongue")
         for piece in rest:
             if piece.stroked:
-                ringed = bool(filled) and not is_flat(filled[0]) and _close(piece.box, filled[0].box)
+                ringed = bool(filled) and not is_flat(filled[0]) and close(piece.box, filled[0].box)
                 self._take([piece], "mouth_ring" if piece.ring or ringed else "mouth_line")
 
     def find_rest(self) -> None:
@@ -368,61 +365,3 @@ class _Search:
             hint="name layers or ids after features (eye_right, eye_left, pupil, mouth, brow, nose, ear, head), "
             "or draw two eyes and, below them, a mouth",
         )
-
-
-def is_flat(piece: Piece) -> bool:
-    """Whether a shape has no height to speak of, as the opening of a shut mouth."""
-    return not piece.stroked and abs(area(piece.points)) < FLAT * piece.box.width**2
-
-
-def _is_thin(piece: Piece) -> bool:
-    """Whether a shape is so narrow that it stands for the line between lips."""
-    if piece.stroked or is_flat(piece) or luminance(piece.shape.color) > LIGHT:
-        return False
-    lens = fit_lens(piece.contours, closed=True)
-    return lens.opening < THIN * lens.box.width
-
-
-def _is_arch(piece: Piece) -> bool:
-    """Whether a filled shape is a curved line, as of eyes that smile."""
-    wide = piece.box.width > 1.1 * piece.box.height
-    return not piece.stroked and wide and area(piece.points) < ARCH * piece.box.area
-
-
-def _could_be_head(piece: Piece, size: tuple[float, float]) -> bool:
-    box = piece.box
-    closed = not piece.stroked or piece.ring
-    return closed and box.area > FACE_SHARE * size[0] * size[1] and 0.5 < box.width / max(box.height, 1e-6) < 2.0
-
-
-def _size(piece: Piece) -> float:
-    return piece.box.area
-
-
-def _same(one: Box, other: Box) -> bool:
-    return one.grown(0.02 * one.width).holds(other) and other.grown(0.02 * one.width).holds(one)
-
-
-def _close(one: Box, other: Box) -> bool:
-    """Whether two shapes are nearly as large, and in the same place."""
-    margin = 0.2 * max(one.width, one.height)
-    return one.grown(margin).holds(other) and other.grown(margin).holds(one)
-
-
-def _within(piece: Piece, outer: Piece) -> bool:
-    return outer.box.grown(outer.shape.width / 2.0 + 0.02 * outer.box.width + 0.5).holds(piece.box)
-
-
-def _inside(pair: tuple[Piece, Piece], other: tuple[Piece, Piece]) -> bool:
-    """Whether a pair lies within another; of two in the same place the first counts."""
-    if pair is other or not _within(pair[0], other[0]):
-        return False
-    return (
-        not _within(other[0], pair[0])
-        or other[0].shape.line < pair[0].shape.line
-        or (other[0].shape.line == pair[0].shape.line and pair[0].stroked and not other[0].stroked)
-    )
-
-
-def _lighter(one: Piece, other: Piece) -> bool:
-    return luminance(one.shape.color) > luminance(other.shape.color) + 0.15

@@ -10,7 +10,8 @@ from .numbers import format_number
 from .svg_reader_outlines import Outline, ellipse, path_data
 from .svg_reader_paints import Paint
 from .toon_from_svg_colors import Palette, mix
-from .toon_from_svg_guess import Found, Part, is_flat
+from .toon_from_svg_guess import Found, Part
+from .toon_from_svg_judging import is_flat
 from .toon_from_svg_lenses import lens_outline
 from .toon_from_svg_pieces import Box, Piece, contrast, luminance, outline_box
 from .toon_from_svg_rig import Rig

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .svg_reader_outlines import Point
-from .toon_from_svg_guess import SIDES, THIN, Found, Part, is_flat
+from .toon_from_svg_guess import SIDES, Found, Part
+from .toon_from_svg_judging import THIN, is_flat
 from .toon_from_svg_lenses import Lens, fit_lens, lens_around
 from .toon_from_svg_pieces import Box, join
 
