@@ -93,6 +93,8 @@ def find_face(path: Path, size: tuple[float, float], pieces: Sequence[Piece]) ->
     Raises:
         LoadError: there are no two eyes, or no mouth.
     """
+    if not pieces:
+        raise LoadError(path, "shows nothing on its canvas", hint="does its viewBox fit what is drawn?")
     search = _Search(path, size, pieces)
     search.find_eyes()
     search.find_mouth()
@@ -112,12 +114,14 @@ class _Search:
 
     def _find_head(self, size: tuple[float, float]) -> None:
         """The largest shape that is called so, else the largest that could hold a face; else all there is."""
-        named = [piece for piece in self._pieces if piece.role == "face"]
+        named = [
+            piece for piece in self._pieces if piece.role == "face" and min(piece.box.width, piece.box.height) > 1.0
+        ]
         large = [piece for piece in self._free() if could_be_head(piece, size)]
         found = max([piece for piece in named if piece.named] or named or large, key=box_size, default=None)
         self.skin = (1.0, 1.0, 1.0, 1.0)
         if found is None:
-            self.face = join(piece.box for piece in self._pieces)
+            self.face = join(piece.box for piece in self._pieces).grown(1.0)
             return
         self.face = found.box
         for piece in self._pieces:
@@ -171,7 +175,9 @@ class _Search:
             if pair is None:
                 raise self._error("no two shapes alike, left and right in the upper half of a face, are found")
             room = self._candidates()
-            sides = {self._side(piece.box): [each for each in room if within(each, piece)] for piece in pair}
+            sides = {
+                side: [each for each in room if within(each, piece)] for side, piece in zip(SIDES, pair, strict=True)
+            }
         for side in SIDES:
             self._sort_eye(sides[side], side)
 
@@ -183,7 +189,7 @@ class _Search:
         candidates = self._candidates()
         pairs = []
         for one in candidates:
-            if one.box.right > self.face.x:
+            if one.box.right >= self.face.x:
                 continue
             others = [other for other in candidates if other.box.left >= self.face.x and self._alike(one, other)]
             if others:
@@ -258,11 +264,11 @@ class _Search:
             LoadError: there is none.
         """
         pieces = [piece for piece in self._pieces if piece.role in MOUTH_ROLES]
-        if not pieces:
+        if not any(piece.role in ("mouth", "lip") for piece in pieces):
             outer = self._guess_mouth()
             if outer is None:
                 raise self._error("eyes are there, but no shape or line in the middle below them")
-            pieces = [piece for piece in self._candidates() if within(piece, outer)]
+            pieces += [piece for piece in self._candidates() if within(piece, outer)]
         self._sort_mouth(pieces)
 
     def _guess_mouth(self) -> Piece | None:
@@ -290,7 +296,7 @@ class _Search:
         return join(
             piece.box.grown(piece.shape.width / 2.0)
             for piece, (role, at) in self.roles.items()
-            if at == side and role in ("white", "pupil", "ring", "arc")
+            if at == side and role in ("white", "pupil", "ring", "arc", "lid", "lash")
         )
 
     def _sort_mouth(self, pieces: list[Piece]) -> None:
@@ -323,12 +329,13 @@ class _Search:
 
     def find_rest(self) -> None:
         """Brows, nose, ears and cheeks; without names only beside eyes that have none either."""
+        ears = {self._side(piece.box) for piece in self._pieces if piece.role == "ear" and not self._covers_both(piece)}
         for piece in self._pieces:
             if piece in self.roles:
                 continue
             if piece.role in ("brow", "ear", "cheek"):
-                both = self._covers_both(piece)
-                self._take([piece], "" if both else piece.role, "" if both else self._side(piece.box))
+                single = self._covers_both(piece) or (piece.role == "ear" and len(ears) == 1)
+                self._take([piece], "" if single else piece.role, "" if single else self._side(piece.box))
             elif piece.role in ("nose", "hair", "body"):
                 self._take([piece], piece.role)
         if self.guessed:

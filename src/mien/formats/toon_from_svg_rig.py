@@ -105,7 +105,7 @@ def _fit_eye(found: Found, side: str) -> Eye:
     if framed := found.of("white", side=side) or found.of("ring", side=side):
         return Eye(fit_lens(framed[0].piece.contours, closed=True))
     if pupils := found.of("pupil", side=side):
-        box = parts_box(pupils)
+        box = parts_box(pupils).grown(0.5)
         wide, high = 0.16 * box.width, 0.06 * box.height
         room = Box(box.left - wide, box.top - high, box.right + wide, box.bottom + high)
         points = [point for part in pupils for point in part.piece.points]

@@ -167,6 +167,21 @@ def test_a_drawing_without_a_face_says_what_was_looked_for(tmp_path, inside, wan
         guess(tmp_path, inside)
 
 
+@pytest.mark.parametrize(
+    "inside",
+    [
+        EYES + '<path id="teeth" d="M12 24h12v2h-12z"/>' + MOUTH,
+        EYES.replace('rx="2"', 'id="eye" rx="0.001"') + MOUTH,
+        '<path id="lash_1" d="M9 12q3-3 6 0" stroke="#000"/><path id="lash_2" d="M21 12q3-3 6 0" stroke="#000"/>'
+        + MOUTH,
+        EYES + MOUTH + '<circle id="ear" cx="1" cy="18" r="3"/>',
+    ],
+    ids=["teeth only", "eyes without size", "lashes only", "one ear"],
+)
+def test_odd_drawings_become_faces(tmp_path, inside):
+    assert {"ER", "EL", "M"} <= set(play(guess(tmp_path, inside)).character.features)
+
+
 def test_a_teapot_is_no_face():
     with pytest.raises(LoadError, match=r"teapot\.svg: no face is found"):
         toon_from_svg(DRAWINGS / "teapot.svg", "teapot")
