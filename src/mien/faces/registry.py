@@ -9,7 +9,7 @@ from pathlib import Path
 from mien.core import Face, LoadError, MienError, UnknownNameError
 
 from .head.people import address, people, read_head, shipped_head
-from .toon.shipped import shipped_toon, toon_from_file, toons
+from .toon.shipped import shipped_toon, toon_address, toon_from_file, toon_names, toons
 from .toon.solid import on_solid
 
 SUFFIXES: Mapping[str, Callable[[Path], Face]] = {".face.json": read_head, ".toon.json": toon_from_file}
@@ -41,7 +41,7 @@ def load_face(name: str | os.PathLike[str]) -> Face:
     if os.sep in text or text.endswith(".json"):
         raise MienError(f"{text}: not a face file — face files end in {', '.join(SUFFIXES)}")
     kind, _, rest = text.partition(":")
-    known = [known for known, _ in face_names()]
-    if kind not in KINDS or text not in known:
+    known = [*map(address, people()), *map(toon_address, toon_names())]
+    if text not in known:
         raise UnknownNameError("face", text, known)
     return KINDS[kind](rest or kind)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from mien.core import Pose, Scene
 from mien.faces.toon.motors import motors
-from mien.faces.toon.toon import ToonFace, share_at
+from mien.faces.toon.presets import share_at
+from mien.faces.toon.toon import ToonFace
 
 from .picture import Picture
 from .toon_from_svg import GuessedToon

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from mien import load_face
 from mien.core import Drawing, Path, Pose
 from mien.faces.toon.motors import motors, paper_codes
+from mien.faces.toon.presets import share_at
 from mien.faces.toon.records import STEPS
 from mien.faces.toon.shipped import toon_names
-from mien.faces.toon.toon import ToonFace, share_at
+from mien.faces.toon.toon import ToonFace
 
 Floats = NDArray[np.float64]
 

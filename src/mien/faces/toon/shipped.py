@@ -26,7 +26,12 @@ def toon_names() -> tuple[str, ...]:
 @cache
 def toons() -> Mapping[str, str]:
     """What each character is, by its address."""
-    return {f"toon:{name}": shipped_toon(name).character.doc for name in toon_names()}
+    return {toon_address(name): shipped_toon(name).character.doc for name in toon_names()}
+
+
+def toon_address(name: str) -> str:
+    """How a shipped character is called for: ``toon:olav``."""
+    return f"toon:{name}"
 
 
 @cache
@@ -39,7 +44,7 @@ def shipped_toon(name: str) -> ToonFace:
     if name not in toon_names():
         raise UnknownNameError("toon", name, toon_names())
     text = resources.files(__package__).joinpath(*FOLDER, name + SUFFIX).read_text(encoding="utf-8")
-    return ToonFace(parse_toon(text, name + SUFFIX), f"toon:{name}")
+    return ToonFace(parse_toon(text, name + SUFFIX), toon_address(name))
 
 
 def toon_from_file(path: Path) -> ToonFace:
