@@ -54,7 +54,8 @@ region = Region(tuple(ways[18:]))
 paths = [Path("p", tuple(ways[k:k + 2]), (0.01 * k, 0.5, 0.9, 0.8), "nonzero", outside=(region,)) for k in range(18)]
 show("drawing", draw_drawing(Drawing((100.0, 80.0), tuple(paths)), plain, threads=threads))
 toon = load_face("toon:olav")
-drawn = toon.neutral.replace({"MB": 0.6, "MLH": 0.9, "MRV": 0.2, "ELU": 0.3, "BLC": 1.0, "HH": 17.0, "HT": 5.0, "PRH": 9.0})
+drawn = toon.neutral.replace({"MB": 0.6, "MLH": 0.9, "MRV": 0.2, "ELU": 0.3, "BLC": 1.0, "HH": 17.0,
+                              "HT": 5.0, "PRH": 9.0})
 show("outlines", *(contour for path in toon.shape(drawn).paths for contour in path.contours))
 show("toon", draw(toon, drawn, plain, threads=threads))
 egg = load_face("toon:miso+egg")
