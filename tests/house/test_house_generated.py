@@ -7,7 +7,7 @@ import pytest
 from support import load_tool
 
 ROOT = Path(__file__).parents[2]
-PAGES = ("parameters", "structure", "gallery", "toon_format")
+PAGES = ("parameters", "structure", "gallery", "toon_format", "messages")
 
 
 @pytest.mark.parametrize("tool", PAGES)

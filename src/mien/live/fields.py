@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -252,15 +253,17 @@ TYPES: Mapping[str, Type] = MappingProxyType(
 
 def describe(fields: Iterable[Field]) -> list[str]:
     """Lines of a Markdown table of some fields."""
-    lines = ["| field | what | range | default |", "|---|---|---|---|"]
+    lines = ["| field | type | what | range | default |", "|---|---|---|---|---|"]
     for field in fields:
-        kind = TYPES[field.type].doc
-        if field.choices:
-            limits = ", ".join(f"`{choice}`" for choice in field.choices)
-        elif field.type in ("number", "values"):
-            limits = f"{field.low:g} to {field.high:g} {field.unit}".strip()
-        else:
-            limits = f"{field.low:g} to {field.high:g} characters" if field.type == "text" else ""
-        given = "**needed**" if field.required else ("" if field.default is None else f"`{field.default}`")
-        lines.append(f"| `{field.name}` | {kind}: {field.doc} | {limits} | {given} |")
+        given = "**needed**" if field.required else ("" if field.default is None else f"`{json.dumps(field.default)}`")
+        lines.append(f"| `{field.name}` | {TYPES[field.type].doc} | {field.doc} | {_limits(field)} | {given} |")
     return lines
+
+
+def _limits(field: Field) -> str:
+    """What a field can be, in words."""
+    if field.choices:
+        return ", ".join(f"`{choice}`" for choice in field.choices)
+    if field.type == "number":
+        return f"{field.low:g} to {field.high:g} {field.unit}".strip()
+    return f"{field.low:g} to {field.high:g} characters" if field.type == "text" else ""

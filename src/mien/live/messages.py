@@ -85,7 +85,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                         LIMIT,
                         required=True,
                     ),
-                    _over(0.0, "How long it takes."),
+                    _over(0, "How long it takes."),
                     _CHANGE,
                     Field("layer", "choice", "Which layer moves.", default="direct", choices=LAYERS[1:]),
                 ),
@@ -95,8 +95,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "Plays a motion.",
                 (
                     Field("motion", "text", "Its name.", 1, LONGEST_NAME, required=True),
-                    Field("strength", "number", "How much of it.", 0, 1, default=1.0),
-                    Field("speed", "number", "How many times as fast.", 0.1, 10, default=1.0),
+                    Field("strength", "number", "How much of it.", 0, 1, default=1),
+                    Field("speed", "number", "How many times as fast.", 0.1, 10, default=1),
                     Field("hold", "flag", "Stay where it is before it would go back to rest.", default=False),
                 ),
             ),
@@ -122,7 +122,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "direction: eyes first, the head follows. `viewer` is where a face looks by itself.",
                 (
                     Field("at", "point", "Where.", -1000, 1000, "m", required=True, choices=tuple(look_directions())),
-                    Field("head", "number", "How much of what is usual the head does.", 0, 1, default=1.0),
+                    Field("head", "number", "How much of what is usual the head does.", 0, 1, default=1),
                 ),
             ),
             Kind(
@@ -130,11 +130,11 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "Stops a layer, or all but `idle`, and lets it go back to rest.",
                 (
                     Field("layer", "choice", "Which layer.", choices=LAYERS),
-                    _over(300.0, "How long it takes to go back."),
+                    _over(300, "How long it takes to go back."),
                 ),
             ),
             Kind("interrupt", "Falls silent: the mouth is shut within 100 ms, what was still to be said is dropped."),
-            Kind("reset", "Lets go of everything, in all layers.", (_over(300.0, "How long it takes."),)),
+            Kind("reset", "Lets go of everything, in all layers.", (_over(300, "How long it takes."),)),
             Kind(
                 "state",
                 "Tells the values of the face as they are now.",
@@ -241,7 +241,7 @@ def markdown() -> str:
     """The table of messages as people read it."""
     lines = [f"Every message may have an `id` ({ID.doc[0].lower()}{ID.doc[1:]})"]
     for kind in KINDS.values():
-        lines += ["", f"## {kind.name}", kind.doc, *(["", *describe(kind.fields)] if kind.fields else [])]
+        lines += ["", f"### {kind.name}", kind.doc, *(["", *describe(kind.fields)] if kind.fields else [])]
     return "\n".join(lines) + "\n"
 
 

@@ -11,6 +11,7 @@ from mien.core import MienError
 from mien.live import IDLE_PARTS, KINDS, LAYERS, check_message, json_schema, parse_batch
 from mien.live.messages import markdown, parse_json, refusal
 from mien.timeline import STANDARD_LAYERS
+from support import ROOT, load_tool
 
 NUMBERS = st.one_of(st.floats(), st.integers(), st.booleans())
 JSON = st.recursive(
@@ -137,6 +138,11 @@ def test_schema_and_docs_tell_of_every_field():
             assert f"| `{field.name}` |" in text
             assert field.doc.endswith(".")
     assert by_kind["move"]["required"] == ["kind", "values"]
+
+
+def test_the_schema_in_the_docs_is_up_to_date():
+    stored = (ROOT / "docs" / "messages.schema.json").read_text(encoding="utf-8")
+    assert stored == load_tool("messages").schema(), "run python tools/messages.py"
 
 
 def test_defaults_pass_their_own_checks():

@@ -1,0 +1,75 @@
+"""Build docs/messages.md and docs/messages.schema.json: what a live face understands, from the table of messages.
+
+python tools/messages.py
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from mien.live import json_schema, standard_motions
+from mien.live.lines import FORMS
+from mien.live.messages import markdown
+from mien.live.osc import PREFIX, WANTED
+
+DOCS = Path(__file__).parents[1] / "docs"
+HEADER = """# Messages to a live face
+
+Made by `python tools/messages.py` from the table in `src/mien/live/messages.py`; a test compares them.
+
+A message is a JSON object with a `kind`; up to 100 of them can be sent as a list. Every message is answered, with
+`{"kind": "ok"}`, with the state that it asked for, or with `{"kind": "error", "message": "…"}`, which says what was
+wrong, what was wanted and what came; a message that is refused changes nothing. Left and right are the face's own.
+JSON Schema: [messages.schema.json](messages.schema.json).
+
+## Kinds
+"""
+FORMS_HEADER = """
+## As lines and as OSC
+
+One message a line; the first word is its kind, in whatever case. A line that begins with another word is a move, one
+that begins with `{` is JSON.
+
+| line | OSC address, arguments |
+|---|---|
+"""
+EXAMPLES = {
+    "move": "`MOVE ELU 0.2 500`, `ELU 0.2 500`",
+    "play": "`PLAY smile`, `PLAY smile 0.8`",
+    "say": "`SAY Hello there`",
+    "look": "`LOOK 0.1 0 0.5`, `LOOK left`",
+    "stop": "`STOP`, `STOP speech`",
+    "interrupt": "`INTERRUPT`",
+    "reset": "`RESET`",
+    "state": "`STATE`, `STATE ELU MB`",
+    "idle": "`IDLE blinks 0`",
+}
+MOTIONS_HEADER = """
+## Standard motions
+
+For every face; a file of one's own has the form of `src/mien/live/data/motions.json`.
+
+| motion | what is seen | seconds |
+|---|---|---|
+"""
+
+
+def page() -> str:
+    """The text of the page."""
+    places = {kind: f"`{PREFIX}/{kind}" + ("/NAME/PARTS`" if kind == "move" else "`") for kind in FORMS}
+    forms = "".join(f"| {EXAMPLES[kind]} | {places[kind]}: {WANTED[kind]} |\n" for kind in FORMS)
+    motions = "".join(
+        f"| `{motion.name}` | {motion.doc} | {motion.length_s:.1f} |\n" for motion in standard_motions().values()
+    )
+    return HEADER + markdown() + FORMS_HEADER + forms + MOTIONS_HEADER + motions
+
+
+def schema() -> str:
+    """The text of the schema."""
+    return json.dumps(json_schema(), indent=1) + "\n"
+
+
+if __name__ == "__main__":
+    (DOCS / "messages.md").write_text(page(), encoding="utf-8")
+    (DOCS / "messages.schema.json").write_text(schema(), encoding="utf-8")
