@@ -50,7 +50,11 @@ def test_pictures_come_at_the_rate_of_the_loops() -> None:
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [("", "talk.log: is empty"), ("{}\n", "talk.log:1"), ('{"format": "mien-live", "version": 1, "face": "head"}', "talk.log:1")],
+    [
+        ("", "talk.log: is empty"),
+        ("{}\n", "talk.log:1"),
+        ('{"format": "mien-live", "version": 1, "face": "head"}', "talk.log:1"),
+    ],
 )
 def test_what_is_no_log_is_told(text: str, words: str, capfd: pytest.CaptureFixture[str]) -> None:
     Path("talk.log").write_text(text)
