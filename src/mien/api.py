@@ -417,26 +417,6 @@ def play(
     return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene())
 
 
-def replay(path: Path | str, face: Face | str | None = None) -> Performance:
-    """The performance in the log of a live session: the identical frames.
-
-    Args:
-        path: the log, JSON lines.
-        face: who plays it, of the same table; None is the face that it names.
-
-    Raises:
-        LoadError: the file cannot be understood.
-        MienError: the face has another table.
-    """
-    from .formats.cue_text import read_text
-    from .live import perform_log, read_log
-
-    log = read_log(read_text(Path(path)).splitlines(), str(path))
-    found = log.header.face if face is None else face
-    performance = perform_log(log, load_face(found) if isinstance(found, str) else found)
-    return replace(performance, scene=default_scene())
-
-
 def _resolve(face: Face | str, pose: Pose | Mapping[str, float] | None) -> tuple[Face, Pose]:
     face = load_face(face) if isinstance(face, str) else face
     return face, pose if isinstance(pose, Pose) else make_pose(face, pose)

@@ -37,7 +37,9 @@ def replay(
 
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
+    from mien.formats.cue_text import read_text
     from mien.formats.performances import usual_scene
+    from mien.live import perform_log, read_log
 
     from . import settings
     from .stages import Stages
@@ -48,9 +50,10 @@ def replay(
     check_performance(out, variable=variable)
     stages = Stages(quiet)
     with stages.stage("replaying"):
-        performance = api.replay(log, face)
+        stored = read_log(read_text(log).splitlines(), str(log))
+        performance = perform_log(stored, api.load_face(face or stored.header.face))
     scene = settings.make_scene(
-        usual_scene(out, performance.scene),
+        usual_scene(out, api.default_scene()),
         size=size,
         view=view,
         position=position,
