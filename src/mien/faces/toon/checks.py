@@ -20,7 +20,8 @@ from .checks_places import Places, find_depth, find_places
 from .checks_poses import POSES, find_wild_poses
 from .checks_schema import find_mismatches
 from .checks_sheet import Sheet
-from .reader import COLOR, MOST_BYTES, parse_toon
+from .polygon_reader import COLOR
+from .reader import MOST_BYTES, parse_toon
 from .records import Character
 from .schema import toon_schema
 from .toon import ToonFace

@@ -10,7 +10,8 @@ from .checks_schema import suggest
 from .checks_sheet import Sheet
 from .hands import PART, SLOTS, hand_names
 from .motors import motors
-from .reader import COLOR, FEATURE_POINTS
+from .polygon_reader import COLOR
+from .reader import FEATURE_POINTS
 from .schema import find_extensions
 
 OF_POINT = {point: feature for feature, points in FEATURE_POINTS.items() for point in points}

@@ -14,7 +14,7 @@ from .checks_crossing import find_crossings
 from .checks_faults import Fault, Place
 from .checks_sheet import Sheet
 from .outlines import flatten, parse_path, piece_steps, polygon_outline
-from .reader import MOST_POINTS
+from .polygon_reader import MOST_POINTS
 from .records import Floats, Outline
 
 MOST_VERTICES = 20_000
