@@ -1,21 +1,18 @@
-"""The nine mouth shapes of Rhubarb on four drawn faces: A shuts, G has the lip under the teeth, H the tongue up."""
+"""The fifteen visemes of Oculus on every drawn face: PP shuts, FF has the lip under the teeth, U is round."""
 
 # mien: docs = picture, test = compare
 import sys
 
 import mien
-
-SHAPES = "ABCDEFGHX"
+from mien.vocab import vocabulary
 
 
 def main(out: str = "toon_mouths.jpg") -> None:
-    scene = mien.Scene(size_px=(150, 165))
-    pictures = [
-        mien.draw(name, mien.pose_from("rhubarb", {shape: 1.0}, name), scene)
-        for name in ("toon:olav", "toon:amara", "toon:pip", "toon:tok")
-        for shape in SHAPES
-    ]
-    mien.contact_sheet(pictures, len(SHAPES), list(SHAPES) * 4).write(out)
+    toons = [mien.load_face(name) for name, _ in mien.face_names() if name.startswith("toon")]
+    names = vocabulary("oculus").names
+    scene = mien.Scene(size_px=(130, 143))
+    pictures = [mien.draw(face, mien.pose_from("oculus", {name: 1.0}, face), scene) for name in names for face in toons]
+    mien.contact_sheet(pictures, len(toons), [name for name in names for _ in toons]).write(out)
 
 
 if __name__ == "__main__":
