@@ -16,6 +16,7 @@ from mien.core import (
     mix_people,
     random_person,
 )
+from mien.core.scene import FRONT
 
 if TYPE_CHECKING:
     from mien.speech import Voice
@@ -33,9 +34,10 @@ def warmup(report: Callable[[str], None] | None = None) -> None:
     load_kernels(KERNELS)
 
 
-def default_scene() -> Scene:
-    """The scene where none is asked for: seen a little from its left."""
-    return Scene().seen("three-quarter")
+def default_scene(face: Face | None = None) -> Scene:
+    """The scene where none is asked for: a head is seen a little from its left, a drawing from straight before it."""
+    drawn = face is not None and face.family == "toon"
+    return Scene(position=FRONT) if drawn else Scene().seen("three-quarter")
 
 
 def face_names() -> list[tuple[str, str]]:

@@ -41,7 +41,7 @@ def draw(
     Args:
         face: a face or its address.
         pose: a pose of it, or the values that differ from neutral.
-        scene: where it is seen from, light, size; None is a slight three-quarter view.
+        scene: where it is seen from, light, size; None is ``default_scene``.
         without: parts to leave out, as ``hair`` or ``eye.left``.
         threads: None is one a core; the picture does not depend on it.
 
@@ -53,7 +53,7 @@ def draw(
     from mien.render import draw_mesh
 
     face, pose = resolve(face, pose)
-    scene, threads = scene or default_scene(), threads or default_threads()
+    scene, threads = scene or default_scene(face), threads or default_threads()
     if without:
         mesh = _posed_mesh(face, pose, scene)
         return Picture(draw_mesh(mesh.without(without), scene, threads=threads), notes(face.name))
@@ -70,13 +70,13 @@ def draw_paths(
     Args:
         face: a face or its address.
         pose: a pose of it, or the values that differ from neutral.
-        scene: as for ``draw``; None is a slight three-quarter view with one step of subdivision.
+        scene: as for ``draw``; None is ``default_scene`` with one step of subdivision.
     """
     from mien.formats.svg import VectorPicture
     from mien.render.painting import paint_mesh
 
     face, pose = resolve(face, pose)
-    scene = scene or replace(default_scene(), subdivide=1)
+    scene = scene or replace(default_scene(face), subdivide=1)
     shape = _posed(face, pose, scene)
     if isinstance(shape, Drawing):
         return VectorPicture(shape, scene, notes=notes(face.name))
@@ -101,7 +101,7 @@ def make_model(
     from mien.formats.obj import Model
 
     face, pose = resolve(face, pose)
-    return Model(_posed_mesh(face, pose, scene or default_scene()), notes(face.name))
+    return Model(_posed_mesh(face, pose, scene or default_scene(face)), notes(face.name))
 
 
 def make_puppet(

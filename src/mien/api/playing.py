@@ -84,7 +84,7 @@ def perform(
         emotion: a preset of the face that shows through.
         emotion_amount: how much of it, 0..1.
         pose: what the face looks like while nothing moves it; None is neutral.
-        scene: where it is seen from; None is a slight three-quarter view.
+        scene: where it is seen from; None is ``default_scene``.
     """
     from mien.perform import load_style
     from mien.perform import perform as make
@@ -93,7 +93,7 @@ def perform(
     manner = load_style(style or "") if style is None or isinstance(style, str) else style
     performance = make(speech, face, seed=seed, style=manner, emotion=emotion, emotion_amount=emotion_amount)
     timeline = performance.timeline if pose is None else with_settings(performance.timeline, pose)
-    return replace(performance, timeline=timeline, scene=scene or default_scene())
+    return replace(performance, timeline=timeline, scene=scene or default_scene(face))
 
 
 def say(
@@ -152,4 +152,4 @@ def play(
     stored = read_timeline(path, find, face if isinstance(face, str) else None, fps=fps)
     if report and face is None and not stored.same_table:
         report(f"{path}: made with another version of {stored.face.name!r}; frames may differ from those of then")
-    return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene())
+    return Performance(stored.timeline, stored.face, stored.sound, stored.scene or default_scene(stored.face))

@@ -79,7 +79,9 @@ Fps = Annotated[
 ]
 View = Annotated[
     str | None,
-    typer.Option("--view", metavar="NAME", help="front, three-quarter or side.  [default: three-quarter]"),
+    typer.Option(
+        "--view", metavar="NAME", help="front, three-quarter or side.  [default: three-quarter; of a drawing, front]"
+    ),
 ]
 From = Annotated[
     str | None, typer.Option("--from", metavar="X,Y,Z", help="Where the camera stands, metres, instead of --view.")

@@ -70,8 +70,9 @@ def render(
 
     kind = _find_kind(out, sheet, view or position)
     check_file(out)
+    subject = api.load_face(face)
     scene = settings.make_scene(
-        _usual_scene(out, kind, sheet),
+        _usual_scene(out, kind, sheet, subject),
         size=size,
         view=view,
         position=position,
@@ -85,7 +86,6 @@ def render(
         cosine_power=cosine_power,
     )
     settings.check_threads(threads)
-    subject = api.load_face(face)
     pose = exaggerate_pose(settings.make_pose(subject, values, preset, units, mix, person, caricature), exaggerate)
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
@@ -99,6 +99,8 @@ def render(
             "--view": view, "--from": position, "--at": at, "--fov": fov, "--shading": shading,
             "--subdivide": subdivide, "--light": light, "--diffuse": diffuse, "--cosine-power": cosine_power,
         }  # fmt: skip
+        if pose["gaze.compensation"] > 0.0:  # Head and eyes then obey where the viewer stands.
+            del space["--view"], space["--from"]
         if unused := [option for option, given in space.items() if given is not None]:
             stages.say(f"{face}: is a drawing, which no camera or light changes: no outline obeys {', '.join(unused)}")
     what = _write(out, kind, sheet, subject, pose, scene, threads, stages)
@@ -118,15 +120,16 @@ def _find_kind(out: Path, sheet: str | None, direction: str | None) -> str:
     return kind
 
 
-def _usual_scene(out: Path, kind: str, sheet: str | None) -> Scene:
+def _usual_scene(out: Path, kind: str, sheet: str | None, face: Face) -> Scene:
     from mien import api
     from mien.formats.performances import usual_scene
 
     if sheet is not None:
         from mien.formats.face_sheets import sheet_scene
 
-        return sheet_scene(sheet)
-    return replace(api.default_scene(), subdivide=1) if kind == "svg" else usual_scene(out, api.default_scene())
+        return sheet_scene(sheet, face)
+    usual = api.default_scene(face)
+    return replace(usual, subdivide=1) if kind == "svg" else usual_scene(out, usual)
 
 
 def _write(

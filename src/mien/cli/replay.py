@@ -53,7 +53,7 @@ def replay(
         stored = read_log(read_text(log).splitlines(), str(log))
         performance = perform_log(stored, api.load_face(face or stored.header.face))
     scene = settings.make_scene(
-        usual_scene(out, api.default_scene()),
+        usual_scene(out, api.default_scene(performance.face)),
         size=size,
         view=view,
         position=position,

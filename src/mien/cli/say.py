@@ -112,8 +112,9 @@ def say(
     from .writing import write
 
     rate = DEFAULT_FPS if fps is None else settings.parse_rate(fps)
+    subject = api.load_face(face)
     scene = settings.make_scene(
-        usual_scene(out, api.default_scene()),
+        usual_scene(out, api.default_scene(subject)),
         size=size,
         view=view,
         position=position,
@@ -156,7 +157,6 @@ def say(
         return
     # Everything that can be wrong is looked at before the first long step.
     kind = check_performance(out, fps=rate, scene=scene, subtitles=subtitles, variable=variable)
-    subject = api.load_face(face)
     if kind == "glb":
         from mien.formats.glb_targets import check_face
 

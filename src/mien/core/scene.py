@@ -22,6 +22,9 @@ CENTRE: Vector = (0.0, -0.026, 0.0)
 """What a picture of a whole head is centred on, metres."""
 
 DISTANCE_M = 1.10
+FRONT: Vector = (0.0, 0.0, DISTANCE_M)
+"""Where the viewer of a drawing stands unless said, metres: straight before it."""
+
 FOV_DEG = 17.2
 
 VIEWS: Mapping[str, tuple[float, float]] = {

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mien.core import Drawing, Face, MienError, ParameterTable, Pose, Scene, UnknownNameError
+from mien.core.scene import FRONT
 from mien.render import Renderer
 from mien.vocab import pose_from, vocabularies, vocabulary
 from mien.vocab.loss import fits_on
@@ -67,13 +68,15 @@ class _Shots:
 Fill = Callable[[Face, Pose, Scene, _Shots], tuple[Section, ...]]
 
 
-def sheet_scene(kind: str) -> Scene:
-    """The scene of a sheet where none is asked for: the whole head for views, else somewhat nearer.
+def sheet_scene(kind: str, face: Face) -> Scene:
+    """The scene of a sheet where none is asked for: the whole head for views, else nearer; a drawing from before.
 
     Raises:
         UnknownNameError: there is no such kind.
     """
     _fill(kind)
+    if face.family == "toon":
+        return Scene(position=FRONT, size_px=SIZE_PX)
     scene = Scene(size_px=SIZE_PX)
     return scene if kind == "views" else replace(scene, at=(0.0, -0.008, 0.0)).turned(14.0, 2.0, 0.93)
 
@@ -102,7 +105,7 @@ def make_sheet(
         UnknownNameError: there is no such kind.
         MienError: the sheet would be too large or has nothing on it, or the face cannot play the vocabulary.
     """
-    usual, shots = sheet_scene(kind), _Shots()
+    usual, shots = sheet_scene(kind, face), _Shots()
     scene = scene or usual
     sections = _fill(kind)(face, Pose.neutral(face.parameters) if pose is None else pose, scene, shots)
     page = Page(face.name, f"{kind} · {software()}", sections)

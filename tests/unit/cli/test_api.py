@@ -122,3 +122,14 @@ def test_settings_are_the_lowest_layer_and_add_up() -> None:
     assert values[:, face.parameters.index["head.turn"]].tolist() == [5.0, 5.0]
     assert values[:, face.parameters.index["head.nod"]].tolist() == [2.0, 2.0]
     assert with_settings(timeline, mien.Pose.neutral(face.parameters)) is timeline
+
+
+def test_a_head_is_seen_a_little_from_its_left_and_a_drawing_from_before() -> None:
+    face = mien.load_face("toon:gus")
+    told = {"gaze.compensation": 1.0, "head.horizontal": 10.0}
+    aside = mien.draw(face, told, mien.Scene().seen("three-quarter"))
+    before = mien.draw(face, told, mien.Scene(position=(0.0, 0.0, 2.0)))
+    np.testing.assert_array_equal(mien.draw(face, told).pixels, before.pixels)
+    assert (aside.pixels != before.pixels).any()
+    assert api.default_scene(mien.load_face("head")) == api.default_scene() == mien.Scene().seen("three-quarter")
+    assert mien.say("Go.", face).scene.position == api.default_scene(face).position == (0.0, 0.0, 1.1)

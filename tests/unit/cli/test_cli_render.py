@@ -107,3 +107,15 @@ def test_what_a_drawing_has_no_use_for_is_said(capsys: pytest.CaptureFixture[str
         assert "no outline obeys --view, --shading, --subdivide\n" in capsys.readouterr().err
         assert main([*command, "--background", "white"]) == 0
         assert "no outline obeys" not in capsys.readouterr().err
+
+
+def test_the_viewer_of_a_drawing_stands_in_front_unless_said(capsys: pytest.CaptureFixture[str]) -> None:
+    def render(*more: str) -> bytes:
+        command = ["render", "toon:olav", "--size", "96", "--set", "gaze.compensation=1", *more, "-o", "a.png"]
+        assert main(command) == 0
+        assert "no outline obeys" not in capsys.readouterr().err
+        return Path("a.png").read_bytes()
+
+    in_front = render("--set", "viewer.x=0", "--set", "viewer.y=0", "--set", "viewer.z=1.1")
+    assert render() == in_front == render("--from", "0,0,1.1")
+    assert len({in_front, render("--view", "three-quarter"), render("--set", "viewer.x=0.5")}) == 3

@@ -137,7 +137,7 @@ def test_sides_and_channels_move_together_and_what_the_scene_fills_is_left_out()
 def test_views_are_all_different() -> None:
     make_sheet(SmallFace(), "views", None, scene())
     assert Renderer.drawn == len(face_sheets.VIEWS) >= 8
-    usual = sheet_scene("views")
+    usual = sheet_scene("views", SmallFace())
     assert len({usual.turned(yaw, pitch).position for _, yaw, pitch in face_sheets.VIEWS}) == len(face_sheets.VIEWS)
 
 
