@@ -57,6 +57,7 @@ def render(
     mien render head:ada -o ada.glb
     mien render head --background transparent -o cutout.svg
     mien render head:parke1974 --light parke --diffuse 0.2 --cosine-power 2 -o plate.png
+    mien render toon:olav --preset thumbs_up --set ELU=0 -o olav.png
     mien render head --sheet presets -o presets.png
     mien render head --sheet facs --size 192 -o action_units.png
     """

@@ -93,6 +93,7 @@ def say(
     mien say "Schöne Grüße aus München." --language de -o gruesse.mp4
     mien say "What a surprise!" --emotion surprised --exaggerate 1.6 -o surprise.mp4
     mien say "Over there." --background transparent -o overlay.mov --subtitles overlay.srt
+    mien say "[wave] Hello!" --face toon:olav -o olav.webm
     mien say "Hello there." -o hello.glb
     mien say --audio line.wav --text "Call me at noon." -o line.mp4
     mien say --audio line.wav --cues corrected.TextGrid -o line.mp4
