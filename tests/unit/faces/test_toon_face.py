@@ -65,6 +65,27 @@ def test_a_turn_moves_the_head_and_leaves_the_body():
     assert (paths(face, {"HV": 20})["hat"].contours[0][:, 1] > rest["hat"].contours[0][:, 1]).all()  # up
 
 
+def test_what_follows_a_line_turns_with_the_depth_of_its_feature():
+    line = {"feature": "M"}
+    document = extended(
+        {"id": "brush", "kind": "feature", "fill": "ink", "stroke": line, "width": 3},
+        {
+            "id": "band",
+            "kind": "feature",
+            "fill": "ink",
+            "span": [{**line, "line": "upper"}, {**line, "line": "lower"}],
+        },
+        {"id": "near", "kind": "feature", "fill": "ink", "stroke": line, "width": 3, "depth": 0.5},
+    )
+    document["features"]["M"]["depth"] = 0.3
+    face = face_of(document)
+    rest, turned = paths(face), paths(face, {"HH": 20})
+    way = document["head"]["radius"][0] * np.sin(np.deg2rad(20.0))
+    for name, depth in (("brush", 0.3), ("band", 0.3), ("near", 0.5)):
+        moved = turned[name].contours[0] - rest[name].contours[0]
+        np.testing.assert_allclose(moved[:, 0], -depth * way, rtol=1e-9)
+
+
 def test_the_picture_has_the_background_of_the_drawing():
     picture = mien.draw(face_of(small(background="#336699")), scene=Scene(size_px=(300, 100)))
     assert picture.pixels[50, 5].tolist() == [0x33, 0x66, 0x99, 255]

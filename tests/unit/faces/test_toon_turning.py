@@ -3,23 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from mien import load_face
+from mien.faces.toon.records import Head
 from mien.faces.toon.turning import turn
 
-
-@dataclass(frozen=True)
-class Head:
-    center: tuple[float, float] = (200.0, 215.0)
-    radius: tuple[float, float] = (90.0, 110.0)
-    pivot: tuple[float, float] = (200.0, 340.0)
-
-
-HEAD = Head()
+HEAD = Head(center=(200.0, 215.0), radius=(90.0, 110.0), pivot=(200.0, 340.0))
 CENTER = np.array([HEAD.center])
 
 

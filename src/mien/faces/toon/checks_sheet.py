@@ -9,7 +9,7 @@ from typing import Any
 
 from .checks_faults import Fault, Place
 from .hands import SharedHand, hand_names
-from .motors import motors
+from .motors import paper_codes
 from .reader import PAPER_FEATURES
 
 OUTLINES = ("path", "min", "max")
@@ -74,9 +74,8 @@ class Sheet:
     @cached_property
     def motors(self) -> frozenset[str]:
         """Motors that it has limits for or, as the schema says already, should have."""
-        paper = [code for code, motor in motors().items() if motor.paper]
         hand = self.shared_hand
-        return frozenset([*paper, *self.members("motors"), *(hand.limits if hand else ())])
+        return frozenset([*paper_codes(), *self.members("motors"), *(hand.limits if hand else ())])
 
     @property
     def shared_hand(self) -> SharedHand | None:

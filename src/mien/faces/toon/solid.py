@@ -197,11 +197,11 @@ def on_solid(face: Face, solid: str) -> OnSolid:
         UnknownNameError: there is no such body.
         MienError: the face is not drawn.
     """
-    for known in SOLIDS:
-        if solid == known and isinstance(face, ToonFace):
-            return OnSolid(face.character, f"{face.name}+{solid}", solid=known)
     if not isinstance(face, ToonFace):
         raise MienError(f"{face.name}: only drawn faces can be put on {' or '.join(SOLIDS)}")
+    for known in SOLIDS:
+        if solid == known:
+            return OnSolid(face.character, f"{face.name}+{solid}", solid=known)
     raise UnknownNameError("solid body", solid, SOLIDS)
 
 

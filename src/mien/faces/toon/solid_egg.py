@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -78,9 +78,9 @@ class Egg:
         contours = list(chain(*polygons))
         if not contours:
             return [[] for _ in polygons]
-        landed = self._land(np.concatenate(contours), back=back)
-        ends = np.cumsum([len(contour) for contour in contours]).tolist()
-        parts = iter([landed.part(start, end) for start, end in zip([0, *ends], ends, strict=False)])
+        ends = np.cumsum([len(contour) for contour in contours])
+        landed = self._land(np.concatenate(contours), ends, back=back)
+        parts = iter([landed.part(start, end) for start, end in pairwise([0, *ends.tolist()])])
         # From outside, what lies on the back runs the other way round; all outlines shall run alike.
         sense = -1 if back else 1
         outlines = [[self._outline_of(next(parts))[::sense] for _ in polygon] for polygon in polygons]
@@ -98,7 +98,8 @@ class Egg:
         rounds = sum(winding(outline, other) for outline in outlines)
         return [*outlines, *([self.outline[::-1] if rounds > 0 else self.outline] * abs(rounds))]
 
-    def _land(self, points: Floats, *, back: bool) -> Landed:
+    def _land(self, points: Floats, ends: Indices, *, back: bool) -> Landed:
+        """Points (N, 2) of closed contours on the ball; where each contour ends among them."""
         ball, over = self.on_ball(points, -1.0 if back else 1.0)
         if back == self.motion.shows_front:
             over = np.ones(len(over))  # What stands out is shown once, by the side that is seen more.
@@ -108,7 +109,23 @@ class Egg:
         ball = np.where(sinking[:, None], self._to_horizon(ball, facing), ball)
         over = np.where(sinking, 1.0 + (over - 1.0) * (1.0 + facing / SINKS), over)
         facing = np.where(sinking, 0.0, facing)
-        return Landed(ball, over, facing, self.place(ball, over), self._horizon_place(ball))
+        rims, rim_turns = self._cross_horizon(ball, over, facing, ends)
+        return Landed(ball, over, facing, self.place(ball, over), self._horizon_place(ball), rims, rim_turns)
+
+    def _cross_horizon(self, ball: Floats, over: Floats, facing: Floats, ends: Indices) -> tuple[Floats, Floats]:
+        """(N, 2) and (N,) where the edge from each vertex to the next one passes the horizon; 0 where it does not."""
+        after = np.arange(1, len(ball) + 1)
+        after[ends - 1] = [0, *ends[:-1]]
+        hidden = facing < 0.0
+        crossing = np.flatnonzero(hidden != hidden[after])
+        beyond, sinks = after[crossing], hidden[after[crossing]]
+        seen, gone = np.where(sinks, crossing, beyond), np.where(sinks, beyond, crossing)
+        share = (facing[seen] / (facing[seen] - facing[gone]))[:, None]
+        passing = ball[seen] * (1.0 - share) + ball[gone] * share
+        passing = passing / np.sqrt((passing * passing).sum(axis=1))[:, None]
+        rims, turns = np.zeros((len(ball), 2)), np.zeros(len(ball))
+        rims[crossing], turns[crossing] = self.place(passing, over[seen]), self._horizon_place(passing)
+        return rims, turns
 
     def _outline_of(self, landed: Landed) -> Floats:
         """The outline of what is seen of a contour on the ball, along the horizon where the contour is hidden."""
@@ -129,15 +146,11 @@ class Egg:
 
     def _along_horizon(self, landed: Landed, gone: Indices) -> tuple[Floats, Floats, Floats]:
         """The way along the horizon from one point that is seen, by hidden ones, to the next one that is seen."""
-        seen, hidden = gone[[0, -1]], gone[[1, -2]]
-        share = (landed.facing[seen] / (landed.facing[seen] - landed.facing[hidden]))[:, None]
-        rims = landed.ball[seen] * (1.0 - share) + landed.ball[hidden] * share
-        rims = rims / np.sqrt((rims * rims).sum(axis=1))[:, None]
-        first, last = self._horizon_place(rims)
-        steps = np.diff([first, *landed.turns[gone[1:-1]], last])
+        leaves, returns = gone[0], gone[-2]  # each names the edge that starts there
+        steps = np.diff([landed.rim_turns[leaves], *landed.turns[gone[1:-1]], landed.rim_turns[returns]])
         steps -= np.rint(steps / COUNT) * COUNT
-        ends = self.place(rims, landed.over[seen])
-        return ends[:1], self._arc(float(first), float(steps.sum())), ends[1:]
+        way = self._arc(float(landed.rim_turns[leaves]), float(steps.sum()))
+        return landed.rims[leaves : leaves + 1], way, landed.rims[returns : returns + 1]
 
     def _arc(self, start: float, length: float) -> Floats:
         """Corners of the outline of the whole egg between a place and another further on, or further back."""
@@ -221,6 +234,8 @@ class Landed:
         facing: (N,) above 0 where they face the viewer.
         placed: (N, 2) where they are seen.
         turns: (N,) places around the horizon that they are next to.
+        rims: (N, 2) where the edges to the next points pass the horizon, of those that do.
+        rim_turns: (N,) places around the horizon of ``rims``.
     """
 
     ball: Floats
@@ -228,17 +243,23 @@ class Landed:
     facing: Floats
     placed: Floats
     turns: Floats
+    rims: Floats
+    rim_turns: Floats
 
     def part(self, start: int, end: int) -> Landed:
         """Some of them, in a row."""
-        columns = (self.ball, self.over, self.facing, self.placed, self.turns)
+        columns = (self.ball, self.over, self.facing, self.placed, self.turns, self.rims, self.rim_turns)
         return Landed(*(column[start:end] for column in columns))
 
 
 def winding(contour: Floats, point: Floats) -> int:
     """How often a closed contour (N, 2) runs around a point, counter-clockwise."""
     x, y = (contour - point).T
-    next_x, next_y = np.roll(x, -1), np.roll(y, -1)
+    above = y > 0.0
+    if above.all() or not above.any():
+        return 0
+    after = np.arange(1 - len(contour), 1)
+    next_x, next_y, then_above = x[after], y[after], above[after]
     left = x * next_y - next_x * y
-    up, down = (y <= 0.0) & (next_y > 0.0) & (left > 0.0), (y > 0.0) & (next_y <= 0.0) & (left < 0.0)
+    up, down = ~above & then_above & (left > 0.0), above & ~then_above & (left < 0.0)
     return int(up.sum()) - int(down.sum())

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mien.core import exact
-
 from .records import Floats
+from .turning import sin_cos_deg
 
 THICK = 0.55
 """Thickness of what stands out from the head, as a share of its width: our choice."""
@@ -36,7 +35,7 @@ class Motion:
     @classmethod
     def of(cls, turn_deg: float, nod_deg: float, tilt_deg: float, pivot: tuple[float, float]) -> Motion:
         """The motion by three angles: to the head's own left, upwards, towards its own left shoulder."""
-        (st, ct), (sn, cn), (sl, cl) = (_sin_cos(angle) for angle in (turn_deg, nod_deg, tilt_deg))
+        (st, ct), (sn, cn), (sl, cl) = (sin_cos_deg(angle) for angle in (turn_deg, nod_deg, tilt_deg))
         return cls(
             (
                 (ct * cl + st * sn * sl, ct * sl - st * sn * cl, st * cn),
@@ -75,8 +74,3 @@ class Motion:
 
 def _width(cosine: float, sine: float) -> float:
     return math.copysign(math.sqrt(cosine * cosine + THICK * THICK * sine * sine), cosine)
-
-
-def _sin_cos(angle_deg: float) -> tuple[float, float]:
-    sine, cosine = exact.sin_cos(math.radians(angle_deg))
-    return float(sine), float(cosine)

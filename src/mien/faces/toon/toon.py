@@ -19,7 +19,7 @@ from .lines import Moment, rest_of
 from .motors import motors
 from .polygons import Contours, Shape
 from .presets import make_presets
-from .proportions import Proportions
+from .proportions import Proportions, feature_of
 from .records import LAYERS, STEPS, Character, Depth, Floats, Polygon
 from .table import linear_color, make_table
 from .turning import turn
@@ -165,5 +165,6 @@ class ToonFace:
 
 
 def _depth(polygon: Polygon, character: Character) -> Depth:
-    feature = character.features.get(polygon.feature)
+    """Its own depth, else that of what it is attached to, else the head's."""
+    feature = character.features.get(feature_of(polygon, character))
     return polygon.depth or (feature.depth if feature else None) or character.head.depth

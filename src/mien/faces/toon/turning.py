@@ -3,35 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mien.core import exact
 
-Floats = NDArray[np.float64]
-
-
-class TurningHead(Protocol):
-    """The ellipsoid that turns, in drawing units, y down; a toon's head record is one."""
-
-    @property
-    def center(self) -> tuple[float, float]:
-        """Middle of the ellipsoid."""
-
-    @property
-    def radius(self) -> tuple[float, float]:
-        """Half its width and half its height."""
-
-    @property
-    def pivot(self) -> tuple[float, float]:
-        """Where the head tilts on its neck."""
+from .records import Floats, Head
 
 
 def turn(
     points: Floats,
-    head: TurningHead,
+    head: Head,
     depth: float | Floats,
     bulge: float | Floats,
     shorten: float | Floats,
@@ -64,7 +46,7 @@ def turn(
     x = points[:, 0] + _move(across, forward, shorten, head.radius[0], horizontal_deg)
     y = points[:, 1] + _move(down, forward, shorten, head.radius[1], vertical_deg)
     if tilt_deg:
-        sine, cosine = _sin_cos(tilt_deg)
+        sine, cosine = sin_cos_deg(tilt_deg)
         right, below = x - head.pivot[0], y - head.pivot[1]
         x += right * (cosine - 1.0) - below * sine
         y += right * sine + below * (cosine - 1.0)
@@ -77,10 +59,11 @@ def _move(
     """(N,) how far points go in the direction of one angle."""
     if angle_deg == 0.0:
         return 0.0
-    sine, cosine = _sin_cos(angle_deg)
+    sine, cosine = sin_cos_deg(angle_deg)
     return -(1.0 - cosine) * shorten * from_center - radius * sine * forward
 
 
-def _sin_cos(angle_deg: float) -> tuple[float, float]:
+def sin_cos_deg(angle_deg: float) -> tuple[float, float]:
+    """Sine and cosine of an angle, the same bits on every machine."""
     sine, cosine = exact.sin_cos(math.radians(angle_deg))
     return float(sine), float(cosine)
