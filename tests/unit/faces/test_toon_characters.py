@@ -275,3 +275,15 @@ def test_a_strict_face_is_drawn_in_six_steps_and_cut_by_its_holes(name: str) -> 
         assert len(path.outside) == (len(holes) if kinds[path.name] == "face" else 0)
         assert path.inside == ()
         assert path.rule == "evenodd"
+
+
+@pytest.mark.parametrize("name", ["sad", "worried", "pout"])
+def test_the_mouth_of_a_cat_that_is_unhappy_hangs_at_its_corners(name: str) -> None:
+    """Its two arcs hang too: only corners below the depth of the arcs do not look like a smile."""
+    character = toon("miso").character
+    values = toon("miso").presets[name].values
+    deepest = max(depth for _, depth in character.features["M"].shape)
+    for code in ("MRV", "MLV"):
+        limits = character.motors[code]
+        share = values[motors()[code].parameter]
+        assert limits.low + share * (limits.high - limits.low) < -deepest
