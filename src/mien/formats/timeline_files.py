@@ -13,6 +13,7 @@ from mien.timeline.csv_form import format_csv, parse_csv
 from mien.timeline.json_form import from_json, json_text
 from mien.timeline.json_reader import parse_json
 from mien.timeline.specification import FILM_FPS, parse_specifications
+from mien.vocab.motor_tracks import play_motors, table_with_motors
 
 from .atomic import writing
 from .scenes import scene_from_data, scene_to_data
@@ -62,9 +63,12 @@ def read_timeline(
     if kind == "json":
         return _read_json(path, text, load_face, address)
     face = load_face(address or DEFAULT_FACE)
+    table = table_with_motors(face)
     if kind == "csv":
-        return StoredPerformance(parse_csv(text, str(path), fps=fps or FILM_FPS, table=face.parameters), face)
-    return StoredPerformance(parse_specifications(text, str(path)).to_timeline(face.parameters), face)
+        timeline = parse_csv(text, str(path), fps=fps or FILM_FPS, table=table)
+    else:
+        timeline = parse_specifications(text, str(path)).to_timeline(table)
+    return StoredPerformance(play_motors(timeline, face), face)
 
 
 def write_json(timeline: Timeline, path: Path | str, *, face: Face, scene: Scene, sound: Sound | None = None) -> None:
@@ -114,11 +118,12 @@ def _read_json(path: Path, text: str, load_face: Callable[[str], Face], address:
             raise
         raise LoadError(path, f"face: {error}", hint="or choose who plays it: --face head") from None
     try:
-        stored.timeline.driven(face.parameters)
+        stored.timeline.driven(table_with_motors(face))
+        timeline = play_motors(stored.timeline, face)
     except MienError as error:
         raise LoadError(path, f"face {face.name!r}: {error}") from None
     scene = scene_from_data(stored.scene, str(path)) if stored.scene else None
-    return StoredPerformance(stored.timeline, face, _sound(path, stored.sound), scene, stored.fits(face.parameters))
+    return StoredPerformance(timeline, face, _sound(path, stored.sound), scene, stored.fits(face.parameters))
 
 
 def _sound(path: Path, name: str) -> Sound | None:
