@@ -360,3 +360,14 @@ def test_the_face_in_the_documentation_has_no_faults():
     (example,) = re.findall(r"```json\n(.*?)```", page, re.DOTALL)
     assert check_bytes(example.encode(), 80).faults == ()
     assert len(example.splitlines()) <= 32
+
+
+def test_strict_faces_are_looked_at_as_drawn():
+    outside = edit(["polygons", "-"], polygon(kind="hole", path=[[-90, -90], [-50, -90], [-50, -50]]), STRICT)
+    assert any(fault.rule == "hole" and "wholly outside" in fault.what for fault in check(outside))
+
+
+def test_wrong_limits_hide_no_fault_of_a_polygon():
+    outside = edit(["polygons", "-"], polygon(kind="hole", path=[[-90, -90], [-50, -90], [-50, -50]]))
+    outside["motors"]["MB"] = {"min": 50, "max": 38}
+    assert {"hole", "limits"} <= {fault.rule for fault in check(outside)}

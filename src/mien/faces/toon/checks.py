@@ -20,6 +20,7 @@ from .checks_places import Places, find_depth, find_places
 from .checks_poses import POSES, find_wild_poses
 from .checks_schema import find_mismatches
 from .checks_sheet import Sheet
+from .motors import motors
 from .polygon_reader import COLOR
 from .reader import MOST_BYTES, parse_toon
 from .records import Character
@@ -112,6 +113,10 @@ def _check(document: Any, places: Places, poses: int) -> tuple[list[Fault], Toon
     return [*faults, *find_wild_poses(face, found_at, poses)], face
 
 
+SOME_LIMITS = {"min": -1, "max": 1, "min_deg": -1, "max_deg": 1}
+"""Of a motor whose own are wrong, while the rest of the face is looked at."""
+
+
 def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) -> Character | None:
     """The face without the polygons and colours that have faults, so that the others can be looked at."""
     wrong = {fault.place[:2] for fault in faults if fault.grave and fault.place}
@@ -130,12 +135,17 @@ def _mended(document: Mapping[str, Any], sheet: Sheet, faults: Iterable[Fault]) 
         return parse_toon(
             json.dumps(
                 {
-                    **{key: document[key] for key in ("mode", "size", "head", "features", "motors") if key in document},
+                    **{key: document[key] for key in ("mode", "size", "head", "features") if key in document},
                     **{"format": "mien-toon", "version": 1, "name": "mended"},
                     "background": background if background in palette else GREY,
                     "palette": {name: code if _is_color(code) else GREY for name, code in palette.items()},
+                    "motors": {
+                        code: SOME_LIMITS if ("motors", code) in wrong else limits
+                        for code, limits in sheet.members("motors").items()
+                        if code in motors()
+                    },
                     **given,
-                    "parts": parts,
+                    **({"parts": parts} if parts else {}),
                     "polygons": [dict(_clipped(polygon, ids)) for polygon in kept],
                 }
             ),
