@@ -3,6 +3,8 @@
 # mien: docs = picture, test = compare
 import sys
 
+from filmstrip import phone_at
+
 import mien
 
 FPS = 12
@@ -16,10 +18,6 @@ def main(out: str = "toon_strip.jpg") -> None:
     pictures = [mien.draw(face, pose, scene) for pose in timeline.poses(face.parameters, FPS)]
     labels = [phone_at(timeline.phones, number / FPS) for number in range(len(pictures))]
     mien.contact_sheet(pictures, 8, labels).write(out)
-
-
-def phone_at(phones, time_s):
-    return next((cue.symbol for cue in phones if cue.start_s <= time_s < cue.end_s), "")
 
 
 if __name__ == "__main__":

@@ -5,11 +5,9 @@ import pytest
 
 from mien.faces.toon.equations import (
     between_states,
-    intercept,
     joint_shares,
     place_along,
     put_along,
-    slope,
 )
 
 
@@ -28,13 +26,17 @@ def paper(vertex, rest, now):
     return x, x * steep + (v0 - steep * h0) + distance
 
 
-def test_the_slope_is_rise_over_run():
-    assert slope(point(2, 1), point(6, 9)) == 2.0  # A1.1
-    assert slope(point(2, 1), point(2, 9)) == float("inf")
+def test_a_vertex_on_a_line_is_where_slope_and_intercept_put_it():
+    """From (2, 1) to (6, 9) the slope is 2 (A1.1), the intercept -3 (A1.2): a quarter along, X is 3 and Y 2 * 3 - 3."""
+    assert put_along(np.array([0.25]), np.zeros(1), point(2, 1), point(6, 9)).tolist() == [[3.0, 3.0]]
 
 
-def test_the_intercept_is_the_height_at_zero():
-    assert intercept(point(2, 1), point(6, 9)) == -3.0  # A1.2: 1 - 2 * 2
+@pytest.mark.parametrize("now", [(point(1, 2), point(9, 5)), (point(0, 8), point(7, -6)), (point(3, 3), point(4, 30))])
+def test_a_vertex_on_a_line_of_any_slope_goes_exactly_as_the_paper_prints_it(now):
+    rest = (point(2, 1), point(6, 9))
+    share, distance = place_along(np.array([[3.0, 3.0]]), *rest)
+    assert distance[0] == pytest.approx(0.0, abs=1e-12)
+    np.testing.assert_allclose(put_along(share, distance, *now)[0], paper((3.0, 3.0), rest, now), atol=1e-12)
 
 
 def test_a_vertex_of_a_level_line_goes_as_the_paper_prints_it():

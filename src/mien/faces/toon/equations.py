@@ -15,17 +15,6 @@ JOINT_SHARE = 0.05
 NO_LENGTH = 1e-9
 
 
-def slope(start: Floats, end: Floats) -> float:
-    """Slope of the line between two control points, (V1 - V0) / (H1 - H0) (A1.1); infinite where it is upright."""
-    run, rise = float(end[0] - start[0]), float(end[1] - start[1])
-    return rise / run if run else float("inf")
-
-
-def intercept(start: Floats, end: Floats) -> float:
-    """Height at which the line between two control points crosses x = 0, V0 - SL H0 (A1.2)."""
-    return float(start[1]) - slope(start, end) * float(start[0])
-
-
 def place_along(vertices: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:
     """Place of vertices (N, 2) along a line, as a share of it (N,), and signed distance from it (N,).
 
@@ -40,7 +29,11 @@ def place_along(vertices: Floats, start: Floats, end: Floats) -> tuple[Floats, F
 
 def put_along(share: Floats, distance: Floats, start: Floats, end: Floats) -> Floats:
     """(N, 2) vertices at a share of a line and a distance from it: X = H0 + vrl (H1 - H0) (A1.3), Y = X SL + IYL + d
-    (A1.4), the distance taken across the line."""
+    (A1.4), the distance taken across the line.
+
+    With SL = (V1 - V0) / (H1 - H0) (A1.1) and IYL = V0 - SL H0 (A1.2), X SL + IYL is V0 + vrl (V1 - V0), which needs no
+    slope and so exists for upright lines.
+    """
     along, _ = _direction(start, end)
     x = start[0] + share * (end[0] - start[0]) - distance * along[1]
     y = start[1] + share * (end[1] - start[1]) + distance * along[0]
