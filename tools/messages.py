@@ -44,6 +44,7 @@ EXAMPLES = {
     "reset": "`RESET`",
     "state": "`STATE`, `STATE ELU MB`",
     "idle": "`IDLE blinks 0`",
+    "subscribe": "`SUBSCRIBE events`",
 }
 MOTIONS_HEADER = """
 ## Standard motions
@@ -58,7 +59,9 @@ For every face; a file of one's own has the form of `src/mien/live/data/motions.
 def page() -> str:
     """The text of the page."""
     places = {kind: f"`{PREFIX}/{kind}" + ("/NAME/PARTS`" if kind == "move" else "`") for kind in FORMS}
-    forms = "".join(f"| {EXAMPLES[kind]} | {places[kind]}: {WANTED[kind]} |\n" for kind in FORMS)
+    forms = "".join(
+        f"| {EXAMPLES[kind]} | {places[kind] + ': ' + WANTED[kind] if kind in WANTED else ''} |\n" for kind in EXAMPLES
+    )
     motions = "".join(
         f"| `{motion.name}` | {motion.doc} | {motion.length_s:.1f} |\n" for motion in standard_motions().values()
     )

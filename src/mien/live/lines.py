@@ -93,6 +93,10 @@ def _idle(rest: str) -> Fields:
     return {words[0]: _number(words[1])}
 
 
+def _subscribe(rest: str) -> Fields:
+    return dict.fromkeys(rest.split(), True)
+
+
 def _alone(rest: str) -> Fields:
     if rest:
         raise MienError(f"{show(rest)}: nothing is wanted behind this command")
@@ -110,9 +114,10 @@ FORMS: Mapping[str, Callable[[str], Fields]] = MappingProxyType(
         "reset": _alone,
         "state": _state,
         "idle": _idle,
+        "subscribe": _subscribe,
     }
 )
-"""What stands behind each kind; every kind of message has a form."""
+"""What stands behind each kind; the others about a connection are JSON only."""
 
 
 def format_reply(reply: Mapping[str, Any]) -> bytes:

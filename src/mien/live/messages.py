@@ -27,6 +27,11 @@ MOST_MESSAGES = 100
 LONGEST_MS = 600_000.0
 LONGEST_TEXT = 10_000
 MOST_PHONES = 10_000
+LONGEST_PCM = 400_000
+"""Characters: more than a second at the highest rate."""
+
+PCM_HZ = (8_000, 96_000)
+MOST_REPORTED = 1e9
 
 
 @dataclass(frozen=True)
@@ -37,11 +42,13 @@ class Kind:
         name: its ``kind`` in JSON.
         doc: what it does.
         fields: besides ``kind`` and ``id``.
+        connection: whether it is about the connection that it comes on; a session alone does not know it.
     """
 
     name: str
     doc: str
     fields: tuple[Field, ...] = ()
+    connection: bool = False
 
 
 @dataclass(frozen=True)
@@ -114,6 +121,12 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                         MOST_PHONES,
                     ),
                     Field("words", "cues", "When which word is said.", 0, MOST_PHONES),
+                    Field(
+                        "more",
+                        "flag",
+                        "More of this text follows under the same `id`: sentences are said as they complete.",
+                        default=False,
+                    ),
                 ),
             ),
             Kind(
@@ -144,6 +157,52 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "idle",
                 "Switches what the face does by itself: 0 is off and 1 as usual.",
                 tuple(Field(part, "number", f"How much of the {part}.", 0, 1) for part in IDLE_PARTS),
+            ),
+            Kind(
+                "subscribe",
+                "Asks for what comes without a question: of what is not named, things stay as they are.",
+                (
+                    Field("events", "flag", "Speech that starts, words, speech that ends or fails."),
+                    Field("frames", "flag", "Pictures, binary; on a WebSocket."),
+                    Field("sound", "flag", "What is said, binary; on a WebSocket."),
+                ),
+                connection=True,
+            ),
+            Kind(
+                "speech.pcm",
+                "A live voice: the mouth moves with it. On a WebSocket also as binary messages.",
+                (
+                    Field("rate_hz", "number", "Samples a second.", *PCM_HZ, unit="Hz", required=True),
+                    Field(
+                        "data", "text", "Base64 of 16-bit samples, low byte first, mono.", 0, LONGEST_PCM, required=True
+                    ),
+                ),
+                connection=True,
+            ),
+            Kind(
+                "report",
+                "What a page has measured; `GET /about` tells it.",
+                (
+                    Field("drawn_fps", "number", "Pictures drawn a second.", 0, MOST_REPORTED, default=0),
+                    Field(
+                        "offset_p50_ms",
+                        "number",
+                        "Audio clock at a drawn picture minus the picture's time, half of them.",
+                        -MOST_REPORTED,
+                        MOST_REPORTED,
+                        "ms",
+                    ),
+                    Field(
+                        "offset_p95_ms",
+                        "number",
+                        "Its size, which 95 % of the pictures stay under.",
+                        0,
+                        MOST_REPORTED,
+                        "ms",
+                    ),
+                    Field("sound", "choice", "Whether it can be heard.", choices=("off", "blocked", "on")),
+                ),
+                connection=True,
             ),
         )
     }

@@ -19,7 +19,7 @@ from .fields import read_number
 from .idle import Idle
 from .logs import LOOP_S, Header, command_line, end_line
 from .looking import look_ways
-from .messages import IDLE_PARTS, Message, check_message, refusal
+from .messages import IDLE_PARTS, KINDS, Message, check_message, refusal
 from .mixing import CHANNELS, Mixer, Moment
 from .motions import FaceMotion, Motion, fit_motion, standard_motions
 from .naming import Names
@@ -121,6 +121,8 @@ class Session:
         """The answer to a message, any JSON value or one that has been checked; a bad one changes nothing."""
         try:
             message = value if isinstance(value, Message) else check_message(value)
+            if KINDS[message.kind].connection:
+                raise MienError(f"{message.kind}: is for a server, and this is a session without connections")
             message = self._spoken(message) if message.kind == "say" else message
             reply = _ACTS[message.kind](self, message)
         except MienError as error:

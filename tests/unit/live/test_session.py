@@ -421,3 +421,9 @@ def test_wrong_lines_of_a_log_are_named():
     assert read_log(log[:2]).loops == 1
     with pytest.raises(MienError, match="another version"):
         list(replay(read_log(log), face("toon:gus")))
+
+
+@pytest.mark.parametrize("kind", sorted(name for name, kind in KINDS.items() if kind.connection))
+def test_what_is_about_a_connection_is_refused_by_a_session_alone(kind):
+    fields = {"subscribe": {"events": True}, "speech.pcm": {"rate_hz": 16000, "data": "AAAA"}, "report": {}}[kind]
+    assert "without connections" in still().handle({"kind": kind, **fields})["message"]
