@@ -46,6 +46,26 @@ EXAMPLES = {
     "idle": "`IDLE blinks 0`",
     "subscribe": "`SUBSCRIBE events`",
 }
+EVENTS = """
+## Events
+
+Who has subscribed to events hears what happens, with the number of the `loop` and, where the message had one, its
+`id`. A text is said sentence by sentence; `speech` counts the sentences of a session from 0.
+
+| event | besides `kind`, `event`, `loop`, `speech` and `id` |
+|---|---|
+| `speech.started` | `text`: the sentence |
+| `speech.word` | `word` and its `number` in the sentence |
+| `speech.ended` | `more`: whether more of the same text follows; `broken_off`: whether it was interrupted |
+| `speech.failed` | `message`: why a sentence cannot be said, or what a mark in it asks for not be done |
+
+A `say` with `more` hands over a part of a text, as large or small as it comes, blanks included. Parts with the same
+`id` are joined, and a sentence is said once what follows shows that it is complete, or when no part has come for a
+second; `"more": false` ends the text, and that part may be empty. `[smile]`, `[smile 0.6]` in a text plays the motion
+with the word behind it, `[neutral]` ends motions, `[look left]` is a look of a moment, `<break time="500ms"/>` a
+silence; `*word*` and `<emphasis>` do nothing yet. None of them is spoken. An `interrupt`, a `reset` and a `stop` of
+the speech also drop what is not made yet, parts that wait for more included.
+"""
 MOTIONS_HEADER = """
 ## Standard motions
 
@@ -65,7 +85,7 @@ def page() -> str:
     motions = "".join(
         f"| `{motion.name}` | {motion.doc} | {motion.length_s:.1f} |\n" for motion in standard_motions().values()
     )
-    return HEADER + markdown() + FORMS_HEADER + forms + MOTIONS_HEADER + motions
+    return HEADER + markdown() + EVENTS + FORMS_HEADER + forms + MOTIONS_HEADER + motions
 
 
 def schema() -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from mien.speech.mouth import articulate
 from mien.timeline.rates import time_of
 from mien.vocab import vocabulary
 
+from .messages import Message
 from .mixing import CHANNELS
 from .slices import Floats
 
@@ -23,32 +25,67 @@ Cues = Sequence[tuple[float, float, str]]
 
 @dataclass(frozen=True, eq=False)
 class Utterance:
-    """Something that is said.
+    """Something that is said: what follows from its phones alone, so that it can be made anywhere beforehand.
 
     Attributes:
         channels: (C, loops) what the channels do.
-        events: what happens, by loop.
-        identity: of the message that asked for it, if it has one.
+        events: what happens, by loop; that it ends is no part of it.
+        acts: messages that marks in the text stand for, by loop.
     """
 
     channels: Floats
-    events: Mapping[int, tuple[dict[str, Any], ...]]
-    identity: str | None = None
+    events: Mapping[int, tuple[Mapping[str, Any], ...]]
+    acts: Mapping[int, tuple[Message, ...]] = field(default_factory=dict)
 
     @property
     def loops(self) -> int:
         """How many it lasts."""
         return self.channels.shape[1]
 
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """An utterance whose turn it is in a session, or will be.
+
+    Attributes:
+        utterance: what is said.
+        number: how many came before it in the session.
+        more: whether more of its text follows.
+        identity: of the message that asked for it, if it has one.
+    """
+
+    utterance: Utterance
+    number: int
+    more: bool = False
+    identity: str | None = None
+
+    def events(self, loop: int) -> tuple[dict[str, Any], ...]:
+        """What happens at a loop of it."""
+        found = tuple(self._event(event) for event in self.utterance.events.get(loop, ()))
+        return found if loop < self.utterance.loops - 1 else (*found, self.ended(broken_off=False))
+
     def ended(self, *, broken_off: bool) -> dict[str, Any]:
         """The event that tells that it is over."""
-        return _event({"event": "speech.ended", "broken_off": broken_off}, self.identity)
+        return self._event({"event": "speech.ended", "broken_off": broken_off, "more": self.more})
+
+    def failed(self, message: str) -> dict[str, Any]:
+        """The event that tells that a mark in it asked for what cannot be done."""
+        return self._event({"event": "speech.failed", "message": message})
+
+    def _event(self, event: Mapping[str, Any]) -> dict[str, Any]:
+        known = {} if self.identity is None else {"id": self.identity}
+        return {"kind": "event", **event, "speech": self.number, **known}
 
 
-def make_utterance(
-    text: str, phones: Cues, words: Cues, *, rate: Fraction, seed: int, identity: str | None
-) -> Utterance:
+def make_utterance(text: str, phones: Cues, words: Cues, *, rate: Fraction, seed: int) -> Utterance:
     """The utterance of some phones, at a rate of loops.
+
+    Args:
+        text: what is said.
+        phones: start and end, seconds, and ARPABET symbol of each.
+        words: likewise.
+        rate: loops a second.
+        seed: of the session. The text has its share in what chance decides, the utterances before it have none.
 
     Raises:
         UnknownNameError: a symbol is no phone.
@@ -57,9 +94,10 @@ def make_utterance(
     said, spelled = _cues(phones), _cues(words)
     tracks = dict(articulate(said))
     if spelled:
-        accents = find_accents(spelled, said, seed)
+        own = seed + crc32(text.encode())
+        accents = find_accents(spelled, said, own)
         length_s = said[-1].end_s
-        tracks |= {"head_nod": nods(accents, length_s, seed), "brow_raise": brow_raises(accents, length_s, seed)}
+        tracks |= {"head_nod": nods(accents, length_s, own), "brow_raise": brow_raises(accents, length_s, own)}
     loops = 1 + max(int(np.ceil(track.length_s * float(rate))) for track in tracks.values())
     times = time_of(np.arange(loops, dtype=np.float64), rate)
     table = vocabulary(CHANNELS)
@@ -67,22 +105,12 @@ def make_utterance(
     for name, track in tracks.items():
         # Once it is over, all of it is at rest.
         channels[table.index[name]] = np.where(times < track.length_s, track.evaluate(times)[0], 0.0)
-    events: dict[int, tuple[dict[str, Any], ...]] = {}
-    for loop, event in _events(text, spelled, loops, rate):
-        events[loop] = (*events.get(loop, ()), _event(event, identity))
-    return Utterance(channels, events, identity)
-
-
-def _event(event: Mapping[str, Any], identity: str | None) -> dict[str, Any]:
-    return {"kind": "event", **event} | ({} if identity is None else {"id": identity})
-
-
-def _events(text: str, words: Sequence[Cue], loops: int, rate: Fraction) -> Iterator[tuple[int, dict[str, Any]]]:
-    yield 0, {"event": "speech.started", "text": text}
-    for number, word in enumerate(words):
+    events: dict[int, tuple[Mapping[str, Any], ...]] = {0: ({"event": "speech.started", "text": text},)}
+    for number, word in enumerate(spelled):
         loop = min(int(word.start_s * float(rate)), loops - 1)
-        yield loop, {"event": "speech.word", "word": word.symbol, "number": number}
-    yield loops - 1, {"event": "speech.ended", "broken_off": False}
+        event = {"event": "speech.word", "word": word.symbol, "number": number}
+        events[loop] = (*events.get(loop, ()), event)
+    return Utterance(channels, events)
 
 
 def _cues(cues: Cues) -> tuple[Cue, ...]:

@@ -23,7 +23,7 @@ from .messages import IDLE_PARTS, KINDS, Message, check_message, refusal
 from .mixing import CHANNELS, Mixer, Moment
 from .motions import FaceMotion, Motion, fit_motion, standard_motions
 from .naming import Names
-from .saying import Utterance, make_utterance
+from .saying import Turn, Utterance, make_utterance
 from .slices import Floats, Motors, Way, count_slices
 
 SILENT_S = 0.1
@@ -107,8 +107,8 @@ class Session:
         self._expression, self._direct = Motors(np.zeros(size)), Motors(face.parameters.defaults)
         self._held, self._borrowed = Motors(np.zeros(size)), Motors([0.0])
         self._playing: dict[str, frozenset[int]] = {}
-        self._said: deque[Utterance] = deque()
-        self._broken_off: list[Mapping[str, Any]] = []
+        self._said: deque[Turn] = deque()
+        self._happened: list[Mapping[str, Any]] = []
         self._said_loops = self._utterances = 0
         self._speaking = False
         self.values: Floats = self._mix(np.zeros(len(channels)))
@@ -117,14 +117,28 @@ class Session:
             usual = dict(zip(IDLE_PARTS, self._idle.usual, strict=True))
             log(Header(face.name, face.parameters.fingerprint, seed, loop_s, usual, own).line())
 
-    def handle(self, value: object) -> dict[str, Any]:
-        """The answer to a message, any JSON value or one that has been checked; a bad one changes nothing."""
+    @property
+    def unsaid_s(self) -> float:
+        """How long it will take to say all that waits for being said."""
+        return (sum(turn.utterance.loops for turn in self._said) - self._said_loops) * self.loop_s
+
+    def handle(self, value: object, utterance: Utterance | None = None) -> dict[str, Any]:
+        """The answer to a message, any JSON value or one that has been checked; a bad one changes nothing.
+
+        Args:
+            value: the message.
+            utterance: what ``make_utterance`` made of it for this session, where that was done beforehand; of a
+                ``say`` with phones.
+        """
         try:
             message = value if isinstance(value, Message) else check_message(value)
             if KINDS[message.kind].connection:
                 raise MienError(f"{message.kind}: is for a server, and this is a session without connections")
-            message = self._spoken(message) if message.kind == "say" else message
-            reply = _ACTS[message.kind](self, message)
+            if message.kind == "say":
+                message = self._spoken(message)
+                reply = self._say(message, utterance)
+            else:
+                reply = _ACTS[message.kind](self, message)
         except MienError as error:
             return refusal(error, value.to_json() if isinstance(value, Message) else value)
         if self._log is not None and message.kind != "state":
@@ -166,20 +180,26 @@ class Session:
     def _mouth(self, loop: int) -> Floats:
         """(C,) what is said at a loop of the utterance, and what somebody moves besides; none passes its end."""
         table = vocabulary(CHANNELS)
-        return np.clip(self._speech.values + self._said[0].channels[:, loop], table.lows, table.highs)
+        return np.clip(self._speech.values + self._said[0].utterance.channels[:, loop], table.lows, table.highs)
 
     def _speak(self) -> tuple[Mapping[str, Any], ...]:
         """Go on to the next utterance where one is over, and lend or give back the mouth; what happens."""
-        if self._said and self._said_loops == self._said[0].loops:
+        if self._said and self._said_loops == self._said[0].utterance.loops:
             self._said.popleft()
             self._said_loops = 0
         speaking = bool(self._said) or bool(self._speech.values.any()) or self._speech.moving
         if speaking != self._speaking:
             self._speaking = speaking
             self._borrowed.move(0, Way(float(speaking), self._slices(BORROW_S if speaking else GIVE_BACK_S), "cosine"))
-        events = (*self._broken_off, *(self._said[0].events.get(self._said_loops, ()) if self._said else ()))
-        self._broken_off.clear()
-        return events
+        events = [*self._happened]
+        self._happened.clear()
+        if self._said:
+            turn = self._said[0]
+            # Through the front door, so that the log has them and a replay needs no marks.
+            replies = [self.handle(message) for message in turn.utterance.acts.get(self._said_loops, ())]
+            events += (turn.failed(reply["message"]) for reply in replies if reply["kind"] == "error")
+            events += turn.events(self._said_loops)
+        return tuple(events)
 
     def _slices(self, over_s: float) -> int:
         return count_slices(over_s, self.loop_s)
@@ -237,22 +257,19 @@ class Session:
         }
         return replace(message, fields=MappingProxyType({**message.fields, **cues}))
 
-    def _say(self, message: Message) -> dict[str, Any]:
+    def _say(self, message: Message, utterance: Utterance | None) -> dict[str, Any]:
         if len(self._said) == MOST_SAID:
             raise MienError(f"say: {MOST_SAID} texts are waiting — wait for speech.ended, or interrupt")
-        said = make_utterance(
-            message["text"],
-            message["phones"],
-            message["words"] or (),
-            rate=self.rate,
-            seed=self.seed + self._utterances,
-            identity=message.id,
-        )
-        if sum(each.loops for each in (*self._said, said)) * self.loop_s > MOST_SAID_S:
+        if utterance is None:
+            utterance = make_utterance(
+                message["text"], message["phones"], message["words"] or (), rate=self.rate, seed=self.seed
+            )
+        if self.unsaid_s + utterance.loops * self.loop_s > MOST_SAID_S:
             raise MienError(f"say: more than {MOST_SAID_S:g} s are waiting — wait for speech.ended, or interrupt")
+        turn = Turn(utterance, self._utterances, message["more"], message.id)
         self._utterances += 1
-        self._said.append(said)
-        return {"loops": said.loops}
+        self._said.append(turn)
+        return {"loops": utterance.loops, "speech": turn.number}
 
     def _look(self, message: Message) -> dict[str, Any]:
         for channel, path in look_ways(message["at"], message["head"], self._gaze.values, self.loop_s):
@@ -299,7 +316,7 @@ class Session:
         """What is being said breaks off: the mouth goes to rest from where it is."""
         if self._said_loops:
             self._speech.values[:] = self._mouth(self._said_loops - 1)
-        self._broken_off += (said.ended(broken_off=True) for said in self._said)
+        self._happened += (turn.ended(broken_off=True) for turn in self._said)
         self._said.clear()
         self._said_loops = 0
         self._rest(self._speech, range(len(self._speech.values)), slices)
@@ -319,7 +336,6 @@ _ACTS: Mapping[str, Callable[[Session, Message], dict[str, Any]]] = MappingProxy
     {
         "move": Session._move,
         "play": Session._play,
-        "say": Session._say,
         "look": Session._look,
         "stop": Session._stop,
         "interrupt": Session._interrupt,

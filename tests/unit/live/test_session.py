@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,6 +13,8 @@ from hypothesis import strategies as st
 from mien.core import Cue, LoadError, MienError, Sound
 from mien.live import IDLE_PARTS, KINDS, Session, read_log, replay, standard_motions
 from mien.live.idle import Idle
+from mien.live.messages import check_message
+from mien.live.saying import make_utterance
 from mien.speech import Speech
 from mien.vocab import vocabulary
 from support import face
@@ -117,18 +120,74 @@ def test_speech_gives_back_what_it_borrowed(name):
 
 def test_speech_tells_when_it_starts_and_ends_and_the_next_text_follows():
     session = still()
-    loops = [ok(session, **SAY)["loops"], ok(session, **{**SAY, "id": "8"})["loops"]]
+    replies = [ok(session, **SAY, more=True), ok(session, **{**SAY, "id": "8"})]
+    assert [reply["speech"] for reply in replies] == [0, 1]
+    first, second = (reply["loops"] for reply in replies)
+    assert session.unsaid_s == pytest.approx((first + second) / 60)
+    frames = run(session, first + second + 9)
+    assert session.unsaid_s == 0.0
     events = [
-        (frame.loop, event["event"], event["id"]) for frame in run(session, sum(loops) + 9) for event in frame.events
+        (frame.loop, event["event"], event["id"], event["speech"], event.get("more"))
+        for frame in frames
+        for event in frame.events
     ]
     assert events == [
-        (0, "speech.started", "7"),
-        (0, "speech.word", "7"),
-        (loops[0] - 1, "speech.ended", "7"),
-        (loops[0], "speech.started", "8"),
-        (loops[0], "speech.word", "8"),
-        (sum(loops) - 1, "speech.ended", "8"),
+        (0, "speech.started", "7", 0, None),
+        (0, "speech.word", "7", 0, None),
+        (first - 1, "speech.ended", "7", 0, True),
+        (first, "speech.started", "8", 1, None),
+        (first, "speech.word", "8", 1, None),
+        (first + second - 1, "speech.ended", "8", 1, False),
     ]
+
+
+def prepared(session, **more):
+    message = check_message(SAY)
+    made = make_utterance(message["text"], message["phones"], message["words"], rate=session.rate, seed=session.seed)
+    return message, replace(made, **more)
+
+
+def test_an_utterance_made_beforehand_is_said_as_one_made_on_the_spot():
+    by_hand, on_the_spot = still(seed=3), still(seed=3)
+    for session in (by_hand, on_the_spot):
+        ok(session, kind="say", text="First", phones=PHONES)
+    assert by_hand.handle(*prepared(by_hand)) == ok(on_the_spot, **SAY)
+    assert digest(run(by_hand, 150)) == digest(run(on_the_spot, 150))
+
+
+def test_acts_of_an_utterance_come_at_their_loop_and_again_in_a_replay():
+    log, smile = [], check_message({"kind": "play", "motion": "smile"})
+    session = still(log=log.append)
+    rest = run(session, 1)[0].pose
+    session.handle(*prepared(session, acts={50: (smile,)}))
+    frames = run(session, 150)
+    session.close()
+    assert [json.loads(line).get("loop") for line in log] == [None, 1, 51, None]
+    assert frames[-1].pose["mouth.expression.left"] != rest["mouth.expression.left"]
+    assert digest(list(replay(read_log(log), face("head")))[1:]) == digest(frames)
+
+
+def test_acts_that_cannot_be_are_told_and_those_of_what_was_dropped_are_not_done():
+    dance = check_message({"kind": "play", "motion": "dance"})
+    session = still()
+    session.handle(*prepared(session, acts={2: (dance,)}))
+    session.handle(*prepared(session, acts={0: (dance,)}))
+    failed = [event for frame in run(session, 9) for event in frame.events if event["event"] == "speech.failed"]
+    assert [(event["speech"], event["id"]) for event in failed] == [(0, "7")]
+    assert "unknown motion 'dance'" in failed[0]["message"]
+    ok(session, kind="interrupt")
+    assert "speech.failed" not in [event["event"] for frame in run(session, 99) for event in frame.events]
+
+
+def test_what_chance_does_with_a_text_does_not_depend_on_those_before():
+    channels = []
+    for before in (0, 2):
+        session = still(seed=5)
+        for _ in range(before):
+            ok(session, kind="say", text="Before", phones=PHONES)
+        ok(session, **SAY)
+        channels.append(session._said[-1].utterance.channels.tobytes())
+    assert channels[0] == channels[1]
 
 
 @pytest.mark.parametrize("loop_s", [1 / 60, 1 / 25, 0.1])
