@@ -58,14 +58,18 @@ def _interruptible() -> Iterator[None]:
             signal.signal(each, signal.SIG_IGN)
         raise Interrupted
 
-    # Under nohup the terminal's end is none of our business.
-    ours = [each for each in SIGNALS if each == signal.SIGINT or signal.getsignal(each) != signal.SIG_IGN]
+    ours = signals()
     before = [signal.signal(each, stop) for each in ours]
     try:
         yield
     finally:
         for each, handler in zip(ours, before, strict=True):
             signal.signal(each, handler)
+
+
+def signals() -> list[int]:
+    """The signals that end a command; under nohup the terminal's end is none of our business."""
+    return [each for each in SIGNALS if each == signal.SIGINT or signal.getsignal(each) != signal.SIG_IGN]
 
 
 def _explain(error: Exception) -> int:

@@ -26,26 +26,7 @@ def params(face: options.FaceName, as_json: options.Json = False) -> None:
 
     subject = api.load_face(face)
     if as_json:
-        print_json(
-            {
-                "face": subject.name,
-                "parameters": [
-                    {
-                        "name": row.name,
-                        "default": row.default,
-                        "low": row.low,
-                        "high": row.high,
-                        "unit": row.unit,
-                        "group": row.group,
-                        "mirror": row.mirror,
-                        "doc": row.doc,
-                        "source": row.source,
-                        "reach_mm": row.reach_mm,
-                    }
-                    for row in subject.parameters
-                ],
-            }
-        )
+        print_json({"face": subject.name, "parameters": [row.to_json() for row in subject.parameters]})
         return
     columns = {
         "parameter": [row.name for row in subject.parameters],

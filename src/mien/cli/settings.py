@@ -29,7 +29,7 @@ def parse_values(texts: Sequence[str] | None) -> dict[str, float]:
         name, equals, number = text.partition("=")
         if not (name and equals):
             raise MienError(f"--set {text}: want NAME=VALUE, as in --set jaw.rotation=8")
-        values[name.strip()] = _number(number, f"--set {text}")
+        values[name.strip()] = parse_number(number, f"--set {text}")
     return values
 
 
@@ -64,7 +64,7 @@ def parse_mix(texts: Sequence[str] | None) -> dict[str, float]:
             raise MienError(f"--mix {text}: want FACE=SHARE, as in --mix head:ada=0.3")
         if name.strip() in shares:
             raise MienError(f"--mix {text}: {name.strip()} is mixed in already — give one share of each person")
-        shares[name.strip()] = _number(number, f"--mix {text}")
+        shares[name.strip()] = parse_number(number, f"--mix {text}")
     return shares
 
 
@@ -113,7 +113,7 @@ def parse_rate(text: str) -> Rate:
         MienError: it is none of these, or not from 1 to 240.
     """
     try:
-        rate = Fraction(text) if "/" in text else _number(text, f"--fps {text}")
+        rate = Fraction(text) if "/" in text else parse_number(text, f"--fps {text}")
     except (ValueError, ZeroDivisionError):
         raise MienError(f"--fps {text}: want a number or a fraction, as in --fps 29.97 or --fps 30000/1001") from None
     check_rate(rate)
@@ -125,7 +125,7 @@ def parse_vector(text: str, option: str) -> Vector:
     numbers = text.split(",")
     if len(numbers) != 3:
         raise MienError(f"{option} {text}: want three numbers, as in {option} 0.2,0,1.1")
-    x, y, z = (_number(number, f"{option} {text}") for number in numbers)
+    x, y, z = (parse_number(number, f"{option} {text}") for number in numbers)
     return x, y, z
 
 
@@ -220,10 +220,11 @@ def read_text(text: str) -> str:
 
 def _name_and_amount(text: str, option: str) -> tuple[str, float]:
     name, equals, number = text.partition("=")
-    return name.strip(), _number(number, f"{option} {text}") if equals else 1.0
+    return name.strip(), parse_number(number, f"{option} {text}") if equals else 1.0
 
 
-def _number(text: str, place: str) -> float:
+def parse_number(text: str, place: str) -> float:
+    """A number; ``place`` is told where it is none."""
     try:
         return float(text)
     except ValueError:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +74,11 @@ class Parameter:
             if self.name.endswith(side):
                 return self.name.removesuffix(side) + other
         return self.name
+
+    def to_json(self) -> dict[str, Any]:
+        """What programs that show sliders need to know."""
+        shown = ("name", "default", "low", "high", "unit", "group", "mirror", "doc", "source", "reach_mm")
+        return {name: getattr(self, name) for name in shown}
 
     def check(self, value: float) -> float:
         """The value as a float.

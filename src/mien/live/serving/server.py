@@ -1,0 +1,186 @@
+"""The server of a live face: its doors, from the first to the last moment."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import logging
+import secrets
+import socket
+import sys
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager, nullcontext, suppress
+from dataclasses import dataclass, field
+from ipaddress import ip_address
+from typing import Any
+from urllib.parse import urlencode
+
+import uvicorn
+
+from mien.core import MienError
+
+from .animator import Animator
+from .guard import Guard
+from .sockets import MOST_BYTES, make_app
+
+DEFAULT_PORT = 8765
+LONGEST_GOODBYE_S = 2.0
+SWITCH_S = 0.001
+"""A thread that computes lets the loop go on after this time, seconds; Python's own is five times as long."""
+
+PING_S = 15.0
+"""A client that does not answer within this time, twice, is gone."""
+
+
+@dataclass(frozen=True)
+class Doors:
+    """Where a face is reached.
+
+    Attributes:
+        host: address that page, WebSocket and HTTP are bound to, and TCP and UDP too.
+        port: of page, WebSocket and HTTP; 0 is any that is free.
+        token: what clients of them must know.
+        allow: further names (``name``, ``name:port``) or origins (``http://name:port``) that may be used.
+        tcp_port: of text lines; None is none.
+        udp_port: of OSC and VMC; None is none.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = DEFAULT_PORT
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    allow: tuple[str, ...] = ()
+    tcp_port: int | None = None
+    udp_port: int | None = None
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether only programs on this machine can come in."""
+        try:
+            return ip_address(self.host).is_loopback
+        except ValueError:
+            return self.host == "localhost"
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A server that runs.
+
+    Attributes:
+        link: of the page, with its token.
+        ports: by what they are for: ``page``, ``tcp``, ``udp``.
+        work: ends only where something is wrong with it.
+    """
+
+    link: str
+    ports: Mapping[str, int]
+    work: tuple[asyncio.Task[None], ...]
+
+    async def wait(self) -> None:
+        """Wait as long as all goes well; raise what does not."""
+        done, _ = await asyncio.wait(self.work, return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            task.result()
+
+
+@asynccontextmanager
+async def open_server(
+    animator: Animator, doors: Doors, about: Callable[[], Mapping[str, Any]]
+) -> AsyncIterator[Opened]:
+    """A server with all its doors, while the body runs; the loop of the face runs with it.
+
+    Raises:
+        MienError: a door cannot be opened; names it.
+    """
+    async with AsyncExitStack() as stack:
+        listener = stack.enter_context(_bind(doors.host, doors.port))
+        port: int = listener.getsockname()[1]
+        hosts, origins = allowed(doors, port)
+        app = Guard(make_app(animator, about), port, doors.token, hosts, origins)
+        server = _Server(
+            uvicorn.Config(
+                app,
+                ws="websockets-sansio",
+                ws_max_size=MOST_BYTES,
+                ws_ping_interval=PING_S,
+                ws_ping_timeout=PING_S,
+                # It saves a tenth of the bytes and takes a third of a core.
+                ws_per_message_deflate=False,
+                http="h11",
+                lifespan="off",
+                access_log=False,
+                log_config=None,
+                server_header=False,
+                timeout_graceful_shutdown=1,
+            )
+        )
+        # What a client does wrong is no news.
+        logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
+        ports = {"page": port}
+        await _open_others(animator, doors, ports, stack)
+        serving = asyncio.create_task(server.serve([listener]))
+        looping = asyncio.create_task(animator.run())
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_S)
+        gc.collect()
+        gc.freeze()  # what is there stays; a collection need not look at it again
+        try:
+            name = "localhost" if doors.is_loopback or doors.host in ("0.0.0.0", "::") else doors.host
+            yield Opened(
+                f"http://{_bracketed(name)}:{port}/?{urlencode({'token': doors.token})}", ports, (serving, looping)
+            )
+        finally:
+            gc.unfreeze()
+            sys.setswitchinterval(before)
+            for outbox in animator.outboxes:
+                outbox.close("the server ends")
+            server.should_exit = True
+            with suppress(TimeoutError):
+                await asyncio.wait_for(serving, LONGEST_GOODBYE_S)
+            looping.cancel()
+            await asyncio.gather(looping, return_exceptions=True)
+
+
+async def _open_others(animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack) -> None:
+    """Open the doors that are shut unless asked for."""
+
+
+def allowed(doors: Doors, port: int) -> tuple[set[str], set[str]]:
+    """Hosts and origins, besides those of this machine, under which a server on a port may be used.
+
+    Raises:
+        MienError: a name cannot be one.
+    """
+    names, origins = set[str](), set[str]()
+    if not doors.is_loopback:
+        names |= {doors.host, socket.gethostname()} - {"0.0.0.0", "::"}
+    for each in doors.allow:
+        if not each or (any(letter in each for letter in " /*\\") and "://" not in each):
+            raise MienError(f"--allow {each!r}: want NAME, NAME:PORT or an origin such as http://localhost:3000")
+        (origins if "://" in each else names).add(each.rstrip("/"))
+    return {name if _has_port(name) else f"{_bracketed(name)}:{port}" for name in names}, origins
+
+
+def _has_port(name: str) -> bool:
+    return name.rpartition(":")[2].isdigit() and (name.count(":") == 1 or "]:" in name)
+
+
+def _bracketed(host: str) -> str:
+    return f"[{host}]" if ":" in host and not host.startswith("[") else host
+
+
+def _bind(host: str, port: int) -> socket.socket:
+    try:
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+        return socket.create_server((host, port), family=family, backlog=256)
+    except (OSError, OverflowError) as error:
+        raise MienError(
+            f"cannot listen on {_bracketed(host)}:{port} ({error}) — is another server running there ('mien doctor' "
+            "tells)? --port 0 takes any port that is free"
+        ) from None
+
+
+class _Server(uvicorn.Server):
+    """Uvicorn without handlers for signals: whoever runs it decides when it ends."""
+
+    def capture_signals(self) -> nullcontext[None]:  # type: ignore[override]
+        return nullcontext()
