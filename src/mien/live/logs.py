@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from mien.core import LoadError, MienError
+from mien.timeline.track import LIMIT
 
 from .fields import read_list, read_number, show
 from .messages import IDLE_PARTS, Message, check_message, parse_json
@@ -32,6 +33,7 @@ class Header:
         loop_s: length of a loop, seconds.
         idle: how much of each part of idle life.
         motions: those besides the standard ones.
+        pose: values at rest that are not the face's own.
     """
 
     face: str
@@ -40,6 +42,7 @@ class Header:
     loop_s: float
     idle: Mapping[str, float]
     motions: tuple[Motion, ...] = ()
+    pose: Mapping[str, float] = field(default_factory=dict)
 
     def line(self) -> str:
         """The line of the log."""
@@ -54,6 +57,7 @@ class Header:
                 "idle": dict(self.idle),
             }
             | ({"motions": [motion.to_json() for motion in self.motions]} if self.motions else {})
+            | ({"pose": dict(self.pose)} if self.pose else {})
         )
 
 
@@ -131,7 +135,12 @@ def _header(value: dict[str, Any]) -> Header:
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise MienError(f"seed: want a whole number, got {show(seed)}")
     motions = tuple(read_motion(motion) for motion in read_list("motions", value.get("motions", []), 1000))
-    return Header(face, table, seed, read_number("loop_s", value.get("loop_s"), *LOOP_S, "s"), amounts, motions)
+    loop_s = read_number("loop_s", value.get("loop_s"), *LOOP_S, "s")
+    pose = {
+        name: read_number(f"pose: {name}", given, -LIMIT, LIMIT)
+        for name, given in _object(value.get("pose", {})).items()
+    }
+    return Header(face, table, seed, loop_s, amounts, motions, pose)
 
 
 def _object(value: object) -> dict[str, Any]:

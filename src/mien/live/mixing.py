@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mien.core import Face, ParameterTable
+from mien.core import Face, ParameterTable, Pose
 from mien.perform.expressions import SPOKEN_SHARE
 from mien.speech.mouth import MOUTH_CHANNELS
 from mien.vocab import Remap, load_remap, vocabulary
@@ -42,13 +42,13 @@ class Moment:
 class Mixer:
     """The rules for one face.
 
-    ``idle``, ``gaze``, ``expression`` and ``speech`` are added to the defaults; then what shuts eyes and lips
+    ``idle``, ``gaze``, ``expression`` and ``speech`` are added to the pose at rest; then what shuts eyes and lips
     multiplies; ``direct`` replaces all of it as far as it is held. While the mouth speaks it has what it needs: of an
     expression there, or of a value that somebody holds there, a part is left, and all of it comes back afterwards.
     """
 
-    def __init__(self, face: Face) -> None:
-        self.table = face.parameters
+    def __init__(self, face: Face, rest: Pose | None = None) -> None:
+        self.table, self.rest = face.parameters, (rest or face.neutral).values
         remap = load_remap(CHANNELS, face.family).on(self.table)
         self._add = _by_channel(remap, self.table, "add")
         self._scale = _by_channel(remap, self.table, "multiply")
@@ -64,9 +64,9 @@ class Mixer:
         """
         table, borrowed = self.table, moment.borrowed * self.mouth
         held = moment.held * (1.0 - borrowed)
-        values = table.defaults + moment.expression * (1.0 - (1.0 - SPOKEN_SHARE) * borrowed)
+        values = self.rest + moment.expression * (1.0 - (1.0 - SPOKEN_SHARE) * borrowed)
         if moment.borrowed:
-            values += (SPOKEN_SHARE * moment.held * borrowed) * (moment.direct - table.defaults)
+            values += (SPOKEN_SHARE * moment.held * borrowed) * (moment.direct - self.rest)
         for channels in (moment.idle, moment.gaze, moment.speech):
             for channel in np.flatnonzero(channels).tolist():
                 rows, gains = self._add[channel]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from mien.core import Face, RangeError, UnknownNameError
+from mien.core import Face, Pose, RangeError, UnknownNameError
 from mien.vocab import load_remap, pose_from, vocabulary
 from mien.vocab.posing import MOTORS
 from mien.vocab.remap import whole
@@ -17,8 +17,8 @@ class Names:
     row; so those that were given before count on until they are forgotten.
     """
 
-    def __init__(self, face: Face) -> None:
-        self.face = face
+    def __init__(self, face: Face, rest: Pose | None = None) -> None:
+        self.face, self.rest = face, rest or face.neutral
         self.table = face.parameters
         self.codes = vocabulary(MOTORS)
         self._given: dict[str, float] = {}
@@ -49,7 +49,7 @@ class Names:
             number, gain = self._same[code]
             found[number] = self._check_reach(code, codes[code], number, gain)
         if shared:
-            moved = pose_from(MOTORS, {**self._given, **shared}, self.face)
+            moved = pose_from(MOTORS, {**self._given, **shared}, self.face, self.rest)
             found |= {row: float(moved.values[row]) for code in shared for row in self._rows[code]}
         own = {name: value for name, value in values.items() if name in self.table}
         for name, value in own.items():

@@ -32,7 +32,8 @@ def replay(log: Log, face: Face) -> Iterator[Frame]:
             f"the log was made with {head.face!r} of the table {head.table}, and {face.name!r} has "
             f"{face.parameters.fingerprint} — another version of mien, or of the face"
         )
-    session = Session(face, head.loop_s, head.seed, idle=head.idle, motions=head.motions)
+    pose = face.neutral.replace(head.pose)
+    session = Session(face, head.loop_s, head.seed, pose=pose, idle=head.idle, motions=head.motions)
     commands = {loop: list(group) for loop, group in groupby(log.commands, key=lambda command: command[0])}
     for loop in range(log.loops):
         for _, message in commands.get(loop, ()):

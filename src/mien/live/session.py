@@ -69,6 +69,7 @@ class Session:
         face: of a family that the tables ``channels`` and ``toonface`` exist for.
         loop_s: length of a loop, seconds: the duration of a slice.
         seed: of all that chance decides.
+        pose: what the face is like at rest; None is neutral.
         idle: how much of each of ``IDLE_PARTS``; 1 where nothing is said.
         motions: besides the standard ones, and in their place where names are the same.
         voice: says texts that come without phones.
@@ -84,6 +85,7 @@ class Session:
         loop_s: float = 1 / 60,
         seed: int = 0,
         *,
+        pose: Pose | None = None,
         idle: Mapping[str, float] = MappingProxyType({}),
         motions: Iterable[Motion] = (),
         voice: Say | None = None,
@@ -100,11 +102,12 @@ class Session:
         own = tuple(motions)
         self.motions: Mapping[str, Motion] = {**standard_motions(), **{motion.name: motion for motion in own}}
         self._fitted: dict[str, FaceMotion] = {motion.name: fit_motion(motion, face) for motion in own}
-        self._mixer, self._names = Mixer(face), Names(face)
+        self.rest = face.neutral if pose is None else pose
+        self._mixer, self._names = Mixer(face, self.rest), Names(face, self.rest)
         size, channels = len(face.parameters), vocabulary(CHANNELS)
         self._idle = Idle(seed, self.rate, idle)
         self._gaze, self._speech = Motors(channels.defaults), Motors(channels.defaults)
-        self._expression, self._direct = Motors(np.zeros(size)), Motors(face.parameters.defaults)
+        self._expression, self._direct = Motors(np.zeros(size)), Motors(self.rest.values)
         self._held, self._borrowed = Motors(np.zeros(size)), Motors([0.0])
         self._playing: dict[str, frozenset[int]] = {}
         self._said: deque[Turn] = deque()
@@ -115,7 +118,7 @@ class Session:
         """(P,) as of the last loop; nobody changes them."""
         if log is not None:
             usual = dict(zip(IDLE_PARTS, self._idle.usual, strict=True))
-            log(Header(face.name, face.parameters.fingerprint, seed, loop_s, usual, own).line())
+            log(Header(face.name, face.parameters.fingerprint, seed, loop_s, usual, own, self.rest.changed()).line())
 
     @property
     def unsaid_s(self) -> float:
@@ -218,7 +221,7 @@ class Session:
                 self._direct.put(row, float(self.values[row]))
             if layer == "direct":
                 self._held.put(row, 1.0)
-            rest = float(self.face.parameters.defaults[row]) if layer == "expression" else 0.0
+            rest = float(self.rest.values[row]) if layer == "expression" else 0.0
             motors.move(row, Way(value - rest, slices, change))
         return {}
 
