@@ -144,6 +144,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 (
                     Field("layer", "choice", "Which layer.", choices=LAYERS),
                     _over(300, "How long it takes to go back."),
+                    Field("names", "names", "Of the layer `direct` these parameters or motor codes only."),
                 ),
             ),
             Kind("interrupt", "Falls silent: the mouth is shut within 100 ms, what was still to be said is dropped."),

@@ -78,6 +78,24 @@ class Names:
                 found[code] = values[row] / gain if gain else self._given.get(code, self.codes[code].default)
         return found
 
+    def release(self, names: Iterable[str]) -> tuple[int, ...]:
+        """The rows that names mean; codes among them count no more.
+
+        Raises:
+            UnknownNameError: there is no such name.
+        """
+        rows: dict[int, None] = {}
+        codes: list[str] = []
+        for name in names:
+            if name in self.table:
+                rows |= dict.fromkeys(self.table.index[row] for row in self.table.resolve(name))
+            else:
+                codes += self._resolve(name)
+        for code in codes:
+            rows |= dict.fromkeys(self._rows[code])
+            self._given.pop(code, None)
+        return tuple(rows)
+
     def forget(self) -> None:
         """Let no code count any more."""
         self._given.clear()

@@ -281,6 +281,14 @@ class Session:
 
     def _stop(self, message: Message) -> dict[str, Any]:
         slices = self._slices(message["over_ms"] / 1000.0)
+        if message["names"] is not None:
+            if message["layer"] != "direct":
+                raise MienError("stop: 'names' are for the layer 'direct'")
+            rows = self._names.release(message["names"])
+            for row in rows:
+                self._direct.move(row)
+            self._rest(self._held, rows, slices)
+            return {}
         for layer in ("gaze", "expression", "speech", "direct") if message["layer"] is None else (message["layer"],):
             _STOPS[layer](self, slices)
         return {}

@@ -1,0 +1,141 @@
+"""Lines over TCP, for netcat and robots: each is answered by one line of JSON; events come to those who ask for them."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+from collections.abc import AsyncIterator
+from typing import TYPE_CHECKING, Any
+
+from mien.core import MienError
+
+from ..lines import LONGEST_LINE, format_reply, parse_line
+from ..messages import refusal
+from .outbox import Outbox
+
+if TYPE_CHECKING:
+    from .animator import Animator
+
+MOST_CONNECTIONS = 64
+"""At one time, on this port."""
+
+STALLED_S = 10.0
+"""A client that reads nothing for so long, while something waits for it, is dropped."""
+
+HTTP = re.compile(rb"\S+ \S+ HTTP/\d|(host|origin|user-agent|content-type|content-length) *:", re.IGNORECASE)
+"""How a line of HTTP begins. Pages of any site can make a browser send such lines to a port of this machine, with
+commands of ours behind them."""
+
+WEBSOCKET_ONLY = ("frames", "sound")
+"""What cannot be subscribed to in lines: it is binary."""
+
+
+async def serve_tcp(animator: Animator, host: str, port: int) -> asyncio.Server:
+    """A server, which listens already, of lines (``mien.live.lines``).
+
+    Any bytes are answered: a line that is too long with an error, after which the next line counts again. A line of
+    HTTP ends the connection. Messages wait for their turn (``Animator.turn``), and are not read faster than their
+    answers are.
+
+    Raises:
+        OSError: the port is taken, or there is no such host.
+    """
+    open_ones: set[asyncio.StreamWriter] = set()
+
+    async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        open_ones.add(writer)
+        try:
+            await _serve(animator, reader, writer, full=len(open_ones) > MOST_CONNECTIONS)
+        except OSError:  # TimeoutError is one
+            # It has gone, or reads nothing: what still waits for it is thrown away.
+            writer.transport.abort()
+        finally:
+            open_ones.discard(writer)
+            writer.close()
+
+    return await asyncio.start_server(serve, host, port, limit=LONGEST_LINE)
+
+
+async def _serve(
+    animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, *, full: bool
+) -> None:
+    outbox = Outbox()
+    try:
+        if full:
+            raise MienError(f"{MOST_CONNECTIONS} connections are open on this port — no more are let in")
+        animator.join(outbox)
+    except MienError as error:
+        await _write(writer, format_reply(refusal(error)))
+        return
+    answering = asyncio.create_task(_answer_lines(animator, reader, writer, outbox))
+    telling = asyncio.create_task(_tell(writer, outbox))
+    try:
+        done, _ = await asyncio.wait((answering, telling), return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            task.result()
+    finally:
+        animator.leave(outbox)
+        outbox.close("the connection is over")
+        for task in (answering, telling):
+            task.cancel()
+        await asyncio.gather(answering, telling, return_exceptions=True)
+
+
+async def _answer_lines(
+    animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, outbox: Outbox
+) -> None:
+    async for line in read_lines(reader):
+        await animator.turn()
+        if line is not None and HTTP.match(line):
+            error = MienError("this port takes lines such as PLAY smile, not HTTP")
+            await _write(writer, format_reply(refusal(error)))
+            return
+        answer = _answer(animator, line, outbox)
+        if answer is not None:
+            await _write(writer, format_reply(answer))
+
+
+async def _tell(writer: asyncio.StreamWriter, outbox: Outbox) -> None:
+    """Send events; over once so many wait that the outbox has been closed."""
+    while (item := await outbox.next()) is not None:
+        await _write(writer, (item.encode() if isinstance(item, str) else item) + b"\n")
+
+
+def _answer(animator: Animator, line: bytes | None, outbox: Outbox) -> dict[str, Any] | None:
+    """The answer to a line, None to an empty one; a line that was too long is None."""
+    try:
+        if line is None:
+            raise MienError(f"the line has more than {LONGEST_LINE} bytes")
+        value = parse_line(line)
+        if value is None:
+            return None
+        if value.get("kind") == "subscribe" and any(value.get(name) for name in WEBSOCKET_ONLY):
+            raise MienError("subscribe: pictures and sound come on a WebSocket — here are events only")
+    except MienError as error:
+        return refusal(error)
+    return animator.handle(value, outbox)
+
+
+async def read_lines(reader: asyncio.StreamReader) -> AsyncIterator[bytes | None]:
+    """Lines in order, None in the place of each that is longer than the reader's limit; the last needs no end."""
+    too_long = False
+    while True:
+        try:
+            line = await reader.readuntil(b"\n")
+        except asyncio.LimitOverrunError as error:
+            await reader.readexactly(error.consumed)
+            too_long = True
+            continue
+        except asyncio.IncompleteReadError as error:
+            line = error.partial
+        if line or too_long:
+            yield None if too_long else line
+        if not line.endswith(b"\n"):
+            return
+        too_long = False
+
+
+async def _write(writer: asyncio.StreamWriter, line: bytes) -> None:
+    writer.write(line)
+    async with asyncio.timeout(STALLED_S):
+        await writer.drain()
