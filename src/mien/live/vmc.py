@@ -68,7 +68,11 @@ class VmcReceiver:
         }
         self._reach = {name: reach(name, face) for name in VOCABULARIES}
         self._axes = bone_axes(face)
-        self._forget()
+        self._values: dict[tuple[str, str], float] = {}
+        self._applied: dict[tuple[str, str], float] = {}
+        self._bones: dict[str, Quaternion] = {}
+        self._held: dict[str, None] = {}
+        self._news, self._heard = False, 0
 
     def take(self, address: str, arguments: Sequence[Argument]) -> None:
         """Hear one call; addresses that mean nothing to a face are passed over.
@@ -125,11 +129,8 @@ class VmcReceiver:
         return [*found, ("Head", to_angles(compose(turned)))] if turned else found
 
     def _forget(self) -> None:
-        self._values: dict[tuple[str, str], float] = {}
-        self._applied: dict[tuple[str, str], float] = {}
-        self._bones: dict[str, Quaternion] = {}
-        self._held: dict[str, None] = {}
-        self._news, self._heard = False, 0
+        for told in (self._values, self._applied, self._bones, self._held):
+            told.clear()
 
 
 def reach(name: str, face: Face) -> dict[str, tuple[str, ...]]:

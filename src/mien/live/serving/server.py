@@ -8,8 +8,8 @@ import logging
 import secrets
 import socket
 import sys
-from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import AsyncExitStack, asynccontextmanager, nullcontext, suppress
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from ipaddress import ip_address
 from typing import Any
@@ -22,6 +22,8 @@ from mien.core import MienError
 from .animator import Animator
 from .guard import Guard
 from .sockets import MOST_BYTES, make_app
+from .tcp import serve_tcp
+from .udp import serve_udp
 
 DEFAULT_PORT = 8765
 LONGEST_GOODBYE_S = 2.0
@@ -142,6 +144,27 @@ async def open_server(
 
 async def _open_others(animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack) -> None:
     """Open the doors that are shut unless asked for."""
+    if doors.tcp_port is not None:
+        with _naming("--tcp-port", doors.host, doors.tcp_port):
+            server = await serve_tcp(animator, doors.host, doors.tcp_port)
+        stack.callback(server.close)
+        ports["tcp"] = server.sockets[0].getsockname()[1]
+    if doors.udp_port is not None:
+        with _naming("--osc-port", doors.host, doors.udp_port):
+            transport = await serve_udp(animator, doors.host, doors.udp_port)
+        stack.callback(transport.close)
+        ports["udp"] = transport.get_extra_info("sockname")[1]
+
+
+@contextmanager
+def _naming(option: str, host: str, port: int) -> Iterator[None]:
+    """Errors of the system as errors of a door."""
+    try:
+        yield
+    except (OSError, OverflowError) as error:
+        raise MienError(
+            f"{option}: cannot listen on {_bracketed(host)}:{port} ({error}) — 0 takes any that is free"
+        ) from None
 
 
 def allowed(doors: Doors, port: int) -> tuple[set[str], set[str]]:

@@ -1,4 +1,4 @@
-"""Lines over TCP, for netcat and robots: each is answered by one line of JSON; events come to those who ask for them."""
+"""Lines over TCP, for netcat and robots: each is answered by one of JSON; events come to those who ask for them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from collections.abc import AsyncIterator
 from typing import TYPE_CHECKING, Any
 
 from mien.core import MienError
+from mien.live.lines import LONGEST_LINE, format_reply, parse_line
+from mien.live.messages import refusal
 
-from ..lines import LONGEST_LINE, format_reply, parse_line
-from ..messages import refusal
 from .outbox import Outbox
 
 if TYPE_CHECKING:
@@ -56,9 +56,7 @@ async def serve_tcp(animator: Animator, host: str, port: int) -> asyncio.Server:
     return await asyncio.start_server(serve, host, port, limit=LONGEST_LINE)
 
 
-async def _serve(
-    animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, *, full: bool
-) -> None:
+async def _serve(animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, *, full: bool) -> None:
     outbox = Outbox()
     try:
         if full:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from mien.core import MienError
-
-from ..fields import show
-from ..osc import Argument, decode_packet, message_from
-from ..vmc import PREFIX, VmcReceiver
+from mien.live.fields import show
+from mien.live.osc import Argument, decode_packet, message_from
+from mien.live.vmc import PREFIX, VmcReceiver
 
 if TYPE_CHECKING:
-    from ..session import Frame
+    from mien.live.session import Frame
+
     from .animator import Animator
 
 MOST_WAITING = 256
@@ -73,9 +73,9 @@ class OscPort(asyncio.DatagramProtocol):
                     if not call[0].startswith(PREFIX):
                         await self._animator.turn()
                     self._take(*call)
-            if self._told != self._animator.session.loop:
-                self._told = self._animator.session.loop
-                self._track()
+            loop = self._animator.session.loop
+            if self._told != loop and self._track():
+                self._told = loop
             self._news.clear()
             await self._news.wait()
 
@@ -97,9 +97,12 @@ class OscPort(asyncio.DatagramProtocol):
         if not self._task.done():
             self._track()
 
-    def _track(self) -> None:
-        for message in self._tracker.messages(self._animator.session.loop):
+    def _track(self) -> bool:
+        """Whether there was something to hand on."""
+        messages = self._tracker.messages(self._animator.session.loop)
+        for message in messages:
             self._handle(message)
+        return bool(messages)
 
     def _handle(self, message: dict[str, Any]) -> None:
         answer = self._animator.handle(message)
@@ -120,4 +123,4 @@ async def serve_udp(animator: Animator, host: str, port: int) -> asyncio.Datagra
     transport, _ = await asyncio.get_running_loop().create_datagram_endpoint(
         lambda: OscPort(animator), local_addr=(host, port)
     )
-    return cast(asyncio.DatagramTransport, transport)
+    return transport
