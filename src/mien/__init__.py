@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     )
     from .formats.picture import Picture
     from .formats.sheet import contact_sheet
+    from .live.client import AsyncClient, Client
     from .perform import Performance, Style, exaggerate
     from .speech import Speech
     from .timeline import Layer, Timeline, Track
@@ -53,6 +54,8 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "AsyncClient",
+    "Client",
     "Cue",
     "Face",
     "Layer",
@@ -114,6 +117,7 @@ _HOMES = {
     ),
     "mien.formats.picture": ("Picture",),
     "mien.formats.sheet": ("contact_sheet",),
+    "mien.live.client": ("AsyncClient", "Client"),
     "mien.perform": ("Performance", "Style", "exaggerate"),
     "mien.speech": ("Speech",),
     "mien.timeline": ("Layer", "Timeline", "Track"),

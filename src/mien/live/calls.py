@@ -1,0 +1,409 @@
+"""What a client of a live face says and hears, without a socket: messages, answers, and how they are told apart.
+
+``Client`` and ``AsyncClient`` share all of this; they differ in how they wait.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import secrets
+from abc import ABC, abstractmethod
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from threading import Lock
+from typing import Any, Generic, Protocol, TypeVar, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mien.core import MienError
+
+Answer = dict[str, Any]
+Event = dict[str, Any]
+Payload = Mapping[str, Any] | Sequence[Mapping[str, Any]]
+
+MOST_EVENTS = 10_000
+"""Events that wait for who asked for them; who does not read them loses the oldest."""
+
+SUBSCRIBE: Answer = {"kind": "subscribe", "events": True}
+OVER: Answer = {"kind": "ok"}
+"""In the place of the answer to what was not sent, because its text is over."""
+
+CLOSED = "this client is closed — make a new one"
+
+T = TypeVar("T")
+L = TypeVar("L")
+P = TypeVar("P", bound="Pending")
+
+
+@dataclass(frozen=True)
+class Said:
+    """What became of a text.
+
+    Attributes:
+        id: of its events.
+        broken_off: whether it is known that somebody let the face fall silent before its end.
+    """
+
+    id: str
+    broken_off: bool = False
+
+
+def new_id() -> str:
+    """An id that nobody else has."""
+    return secrets.token_hex(8)
+
+
+class Pending(Protocol):
+    """Something that will hold a result: a Future of threads, or one of asyncio."""
+
+    def done(self) -> bool: ...  # noqa: D102
+    def set_result(self, result: Any, /) -> None: ...  # noqa: D102
+
+
+class Queue(Protocol):
+    """A queue without an end, of threads or of asyncio."""
+
+    def put_nowait(self, item: Any, /) -> None: ...  # noqa: D102
+    def get_nowait(self) -> Any: ...  # noqa: D102
+    def qsize(self) -> int: ...  # noqa: D102
+
+
+class Talk(Generic[P]):
+    """A text that is being said, as its client sees it.
+
+    Args:
+        end: gets a ``Said``, or a MienError, once it is over.
+        identity: of the text, made up where none is given.
+    """
+
+    def __init__(self, end: P, identity: str | None) -> None:
+        self.id = new_id() if identity is None else identity
+        self.end = end
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, has been broken off or has failed."""
+        return self.end.done()
+
+    def hear(self, event: Event) -> None:
+        """Take note of an event, of this text or another one."""
+        if event.get("id") != self.id:
+            return
+        if event["event"] == "speech.failed":
+            self.finish(MienError(f"the text could not be said: {event.get('message')}"))
+        elif event["event"] == "speech.ended" and event.get("broken_off"):
+            self.finish(Said(self.id, broken_off=True))
+        elif event["event"] == "speech.ended" and not event.get("more"):
+            self.finish(Said(self.id))
+
+    def finish(self, outcome: Said | MienError) -> None:
+        """It is over; what comes later changes nothing."""
+        if not self.end.done():
+            self.end.set_result(outcome)
+
+
+class Exchange:
+    """One connection, seen from a client: answers go to who waits for them, in order; events to who listens."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._pending: deque[Pending] = deque()
+        self._talks: list[Talk[Any]] = []
+        self._queues: list[Queue] = []
+        self._lost: Answer | None = None
+
+    def expect(self, pending: Pending, message: Payload) -> None:
+        """Let the next answer go there; called right before its message is sent."""
+        with self._lock:
+            if self._lost is not None:
+                pending.set_result(self._lost)
+                return
+            self._pending.append(pending)
+            if any(_breaks_off(each) for each in (message if isinstance(message, Sequence) else (message,))):
+                # Nothing is heard of a text that had not been begun.
+                for talk in self._talks:
+                    talk.finish(Said(talk.id, broken_off=True))
+
+    def begin(self, talk: Talk[Any]) -> None:
+        """Let a text hear what becomes of it."""
+        with self._lock:
+            self._talks.append(talk)
+            if self._lost is not None:
+                talk.finish(MienError(self._lost["message"]))
+
+    def end(self, talk: Talk[Any]) -> None:
+        """Let it hear nothing any more."""
+        with self._lock:
+            self._talks.remove(talk)
+
+    def listen(self, queue: Queue) -> None:
+        """Put all events from now on there, and an error when the connection is lost."""
+        with self._lock:
+            self._queues.append(queue)
+            if self._lost is not None:
+                queue.put_nowait(self._lost)
+
+    def leave(self, queue: Queue) -> None:
+        """Put nothing there any more."""
+        with self._lock:
+            self._queues.remove(queue)
+
+    def take(self, data: str | bytes) -> None:
+        """Sort what has come; pictures and sound are passed over."""
+        if isinstance(data, bytes):
+            return
+        try:
+            value = json.loads(data)
+        except (ValueError, RecursionError):
+            value = None
+        if isinstance(value, list) or (isinstance(value, dict) and value.get("kind") != "event"):
+            with self._lock:
+                pending = self._pending.popleft() if self._pending else None
+                if pending is not None and not pending.done():
+                    pending.set_result(value)
+        elif isinstance(value, dict) and isinstance(value.get("event"), str):
+            with self._lock:
+                for talk in self._talks:
+                    talk.hear(value)
+                for queue in self._queues:
+                    _put(queue, value)
+        else:
+            self.lose("what answers there is no live face of mien — give the link that 'mien live' printed")
+
+    def lose(self, reason: str) -> None:
+        """The connection is gone: whoever waits is told so, and whoever asks later."""
+        with self._lock:
+            if self._lost is not None:
+                return
+            self._lost = {"kind": "error", "message": reason}
+            for pending in self._pending:
+                if not pending.done():
+                    pending.set_result(self._lost)
+            for talk in self._talks:
+                talk.finish(MienError(reason))
+            for queue in self._queues:
+                _put(queue, self._lost)
+
+
+def _put(queue: Queue, value: Event) -> None:
+    if queue.qsize() >= MOST_EVENTS:
+        queue.get_nowait()
+    queue.put_nowait(value)
+
+
+def _breaks_off(message: Any) -> bool:
+    kind = message.get("kind") if isinstance(message, Mapping) else None
+    return kind in ("interrupt", "reset") or (kind == "stop" and message.get("layer") in (None, "speech"))
+
+
+def say_message(text: str, identity: str, *, more: bool = False) -> Answer:
+    """The message that says a text, or some of it."""
+    return {"kind": "say", "text": text, "id": identity} | ({"more": True} if more else {})
+
+
+def encode(value: Payload) -> str:
+    """Messages as JSON; numbers of NumPy are numbers.
+
+    Raises:
+        MienError: something in them has no place in JSON.
+    """
+    try:
+        return json.dumps(value, allow_nan=False, default=_plain)
+    except (TypeError, ValueError) as error:
+        raise MienError(f"this cannot be sent as a message: {error}") from None
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return dict(value)
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is nothing that JSON knows")
+
+
+def read_answer(answer: Any) -> Any:
+    """An answer, or a list of them.
+
+    Raises:
+        MienError: a message was refused; the server's text, and which message of a list.
+    """
+    if isinstance(answer, list):
+        refused = [(number, each) for number, each in enumerate(answer) if each.get("kind") == "error"]
+        if refused:
+            number, first = refused[0]
+            raise MienError(f"{len(refused)} of {len(answer)} messages were refused; message {number}: {_text(first)}")
+    elif answer.get("kind") == "error":
+        raise MienError(_text(answer))
+    return answer
+
+
+def read_event(event: Event) -> Event | None:
+    """An event; None where there are no more, because the client was closed.
+
+    Raises:
+        MienError: the connection was lost.
+    """
+    if event["kind"] != "error":
+        return event
+    if event["message"] == CLOSED:
+        return None
+    raise MienError(event["message"])
+
+
+def read_outcome(outcome: Said | MienError) -> Said:
+    """What became of a text.
+
+    Raises:
+        MienError: it could not be said.
+    """
+    if isinstance(outcome, MienError):
+        raise outcome
+    return outcome
+
+
+def _text(answer: Answer) -> str:
+    return str(answer.get("message", "the message was refused"))
+
+
+def pcm_message(samples: ArrayLike, rate_hz: int) -> Answer:
+    """The message with some sound.
+
+    Args:
+        samples: (N,) mono, int16, or floating from -1 to 1; at most a second of them.
+        rate_hz: samples a second.
+
+    Raises:
+        MienError: the samples are of another shape or type, or too many.
+    """
+    values = np.asarray(samples)
+    if values.ndim != 1 or not (values.dtype == np.int16 or np.issubdtype(values.dtype, np.floating)):
+        raise MienError(
+            f"hear: want a row of int16, or of floats from -1 to 1, got {values.dtype} of shape {values.shape} — "
+            "of several channels give one, as in samples[:, 0]"
+        )
+    if len(values) > rate_hz:
+        raise MienError(f"hear: {len(values)} samples at {rate_hz} Hz are more than a second — give them bit by bit")
+    if values.dtype != np.int16:
+        values = np.rint(np.clip(np.nan_to_num(values), -1.0, 1.0) * 32767.0)
+    data = base64.b64encode(values.astype("<i2").tobytes()).decode("ascii")
+    return {"kind": "speech.pcm", "rate_hz": rate_hz, "data": data}
+
+
+class Calls(ABC, Generic[T, L]):
+    """What can be asked of a live face.
+
+    Every call sends one message and gives its answer; a message that the face refuses raises MienError with the text
+    that it answered. With ``AsyncClient`` every call is awaited.
+    """
+
+    @abstractmethod
+    def _ask(self, message: Payload, part: str | None = None) -> Any:
+        """The answer to a message, or a part of it."""
+
+    @abstractmethod
+    def _fetch(self, path: str) -> Any:
+        """What the server tells at an address, JSON."""
+
+    @overload
+    def send(self, message: Mapping[str, Any]) -> T: ...
+    @overload
+    def send(self, message: Sequence[Mapping[str, Any]]) -> L: ...
+    def send(self, message: Payload) -> T | L:
+        """The answer to any message of docs/messages.md, or the answers to a list of up to 100.
+
+        Of a list all messages are carried out that are right, even if it raises because of another one.
+        """
+        return self._ask(message)
+
+    def move(
+        self,
+        values: Mapping[str, float] | None = None,
+        /,
+        *,
+        over_ms: float = 0,
+        change: str = "linear",
+        layer: str = "direct",
+        **codes: float,
+    ) -> T:
+        """Move motors to values: ``move({"jaw.rotation": 8}, over_ms=300)`` or ``move(ELU=0.2, over_ms=500)``.
+
+        Args:
+            values: by the name of a parameter or motor code; in the layers speech and gaze of a channel.
+            over_ms: how long it takes.
+            change: how it gets there: linear, cosine, ease-in, ease-out.
+            layer: which one moves: direct, expression, gaze, speech.
+            codes: values by names that Python can write.
+        """
+        moved = {**(values or {}), **codes}
+        return self._ask({"kind": "move", "values": moved, "over_ms": over_ms, "change": change, "layer": layer})
+
+    def play(self, motion: str, *, strength: float = 1, speed: float = 1, hold: bool = False) -> T:
+        """Play a motion, such as smile or nod.
+
+        Args:
+            motion: its name; ``about()["motions"]`` has all.
+            strength: how much of it, 0 to 1.
+            speed: how many times as fast, 0.1 to 10.
+            hold: stay where it is before it would go back to rest.
+        """
+        return self._ask({"kind": "play", "motion": motion, "strength": strength, "speed": speed, "hold": hold})
+
+    def look(self, at: Sequence[float] | str, *, head: float = 1) -> T:
+        """Look at a point or in a direction: eyes first, the head follows.
+
+        Args:
+            at: x, y, z in metres from the middle of the head (its own left, up, forward), or left, right, up, down,
+                viewer, away.
+            head: how much of what is usual the head does, 0 to 1.
+        """
+        return self._ask({"kind": "look", "at": at if isinstance(at, str) else list(at), "head": head})
+
+    def stop(self, layer: str | None = None, *, over_ms: float = 300) -> T:
+        """Stop a layer (direct, expression, gaze, speech, idle), or all but idle; it goes back to rest.
+
+        Args:
+            layer: which.
+            over_ms: how long that takes.
+        """
+        which = {} if layer is None else {"layer": layer}
+        return self._ask({"kind": "stop", **which, "over_ms": over_ms})
+
+    def interrupt(self) -> T:
+        """Fall silent: the mouth is shut within 100 ms, and what was still to be said is dropped."""
+        return self._ask({"kind": "interrupt"})
+
+    def reset(self, *, over_ms: float = 300) -> T:
+        """Let go of everything, in all layers.
+
+        Args:
+            over_ms: how long it takes.
+        """
+        return self._ask({"kind": "reset", "over_ms": over_ms})
+
+    def state(self, *names: str) -> T:
+        """Values of the face as they are now, by name; of all that moves, if no names are given."""
+        return self._ask({"kind": "state"} | ({"names": list(names)} if names else {}), "values")
+
+    def idle(self, **parts: float) -> T:
+        """Switch what the face does by itself: ``idle(blinks=0, sway=0.5)``; 0 is off and 1 as usual.
+
+        Args:
+            parts: of blinks, saccades, breathing, sway.
+        """
+        return self._ask({"kind": "idle", **parts})
+
+    def hear(self, samples: ArrayLike, rate_hz: int) -> T:
+        """Let the mouth move with a live voice: a little more of its sound, a few times a second.
+
+        Args:
+            samples: (N,) mono, int16, or floating from -1 to 1; at most a second of them.
+            rate_hz: samples a second, 8000 to 96000.
+        """
+        return self._ask(pcm_message(samples, rate_hz))
+
+    def about(self) -> T:
+        """What the server tells of itself: face, rate, how its loops keep time, who is connected, motions."""
+        return self._fetch("/about")
