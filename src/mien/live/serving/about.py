@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
 
+import numpy as np
+
 from .animator import Animator
+
+PERCENTS = (50, 95, 99)
 
 
 def describe(animator: Animator) -> dict[str, Any]:
@@ -26,8 +31,17 @@ def describe(animator: Animator) -> dict[str, Any]:
             "late": report.late,
             "dropped": report.dropped,
             "worst_ms": round(report.worst_s * 1000.0, 3),
+            "delay_ms": _percentiles(animator.delays_s),
         },
         "messages": animator.messages,
         "clients": clients,
         "motions": sorted(session.motions),
     }
+
+
+def _percentiles(delays_s: Sequence[float]) -> dict[str, float]:
+    """How late loops began lately."""
+    if not delays_s:
+        return {}
+    found = np.percentile(np.array(delays_s) * 1000.0, PERCENTS)
+    return {f"p{percent}": round(float(value), 3) for percent, value in zip(PERCENTS, found, strict=True)}

@@ -9,6 +9,7 @@ import asyncio
 import base64
 import binascii
 import json
+from collections import deque
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from time import perf_counter
 from typing import Any, Protocol
@@ -26,6 +27,9 @@ from .outbox import Outbox
 
 MOST_CLIENTS = 200
 """Connections at one time."""
+
+MOST_DELAYS = 3600
+"""A minute at 60 Hz."""
 
 SHARE = 0.75
 """How much of a loop messages may take, together; what comes beyond waits for the next one."""
@@ -67,6 +71,8 @@ class Animator:
         self.report = Report()
         self.outboxes: list[Outbox] = []
         self.messages = 0
+        self.delays_s: deque[float] = deque(maxlen=MOST_DELAYS)
+        """How late the newest loops began, seconds."""
         self._clock, self._sleep = clock, sleep
         self._setup = encoder.number
         self._hooks: list[Callable[[Frame], object]] = []
@@ -138,10 +144,12 @@ class Animator:
         """Run loops at their deadlines, until cancelled."""
         deadlines = Deadlines(self.session.rate, self._clock())
         while True:
-            due = deadlines.take(self._clock())
+            due_s, now_s = deadlines.due_s, self._clock()
+            due = deadlines.take(now_s)
             if not due:
-                await self._sleep(max(0.0, deadlines.due_s - self._clock()))
+                await self._sleep(max(0.0, due_s - now_s))
                 continue
+            self.delays_s.append(now_s - due_s)
             for _ in range(due):
                 frame = self._step()
             self._show(frame)
