@@ -27,6 +27,7 @@ class FakeServer:
 
     def __init__(self, reply: Reply) -> None:
         self.reply = reply
+        self.about: Any = {"face": "nobody"}
         self.received: list[Any] = []
         self.connections: list[ServerConnection] = []
         self.link = ""
@@ -50,19 +51,18 @@ class FakeServer:
         except ConnectionClosed:
             pass
 
-
-def _guard(connection: ServerConnection, request: Request) -> Response | None:
-    if request.headers.get("Authorization") != f"Bearer {TOKEN}":
-        return Response(403, "Forbidden", Headers(), b"")
-    if request.path == "/about":
-        return Response(200, "OK", Headers({"Content-Type": "application/json"}), b'{"face": "nobody"}')
-    return None if request.path == "/live" else Response(404, "Not Found", Headers(), b"")
+    def guard(self, connection: ServerConnection, request: Request) -> Response | None:
+        if request.headers.get("Authorization") != f"Bearer {TOKEN}":
+            return Response(403, "Forbidden", Headers(), b"")
+        if request.path == "/about":
+            return Response(200, "OK", Headers(), json.dumps(self.about).encode())
+        return None if request.path == "/live" else Response(404, "Not Found", Headers(), b"")
 
 
 @contextmanager
 def fake_server(reply: Reply = lambda message: [OK]) -> Iterator[FakeServer]:
     fake = FakeServer(reply)
-    with serve(fake.handle, "127.0.0.1", 0, process_request=_guard, compression=None) as server:
+    with serve(fake.handle, "127.0.0.1", 0, process_request=fake.guard, compression=None) as server:
         fake.link = f"http://127.0.0.1:{server.socket.getsockname()[1]}/?token={TOKEN}"
         thread = Thread(target=server.serve_forever)
         thread.start()

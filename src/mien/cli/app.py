@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import faces, lipsync, params, play, presets, render, replay, say, toon, vocab, voices, warmup
+from . import doctor, faces, lipsync, params, play, presets, render, replay, say, toon, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -32,6 +32,7 @@ for command in (
     app.command()(command)
 app.add_typer(toon.app, name="toon")
 app.command()(warmup.warmup)
+app.command()(doctor.doctor)
 
 
 def _show_version(wanted: bool) -> None:
