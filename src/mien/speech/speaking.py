@@ -36,6 +36,8 @@ def speak(
     voice: str | Voice | None = None,
     *,
     pauses: Mapping[int, float] = NO_PAUSES,
+    lead_s: float = LEAD_S,
+    tail_s: float = TAIL_S,
     report: Report | None = None,
     folder: Path | str | None = None,
 ) -> Speech:
@@ -46,6 +48,8 @@ def speak(
         voice: a voice or the name of one; the built-in one by default.
         pauses: how long nothing is heard, seconds, before characters of the text; before the first and after the last
             word it is never less than usual.
+        lead_s: silence before the first word.
+        tail_s: silence after the last word.
         report: called as characters of the text are done, with how many, of how many, and what is being done.
         folder: where long sound is kept until it is no longer used; the system's temporary folder by default.
 
@@ -57,7 +61,7 @@ def speak(
         raise MienError("the text is empty — write what is to be said, like 'Hello there.'")
     speaker = find_voice(voice) if voice is None or isinstance(voice, str) else voice
     store = SoundStore(speaker.rate_hz, folder)
-    line = _Line(speaker.name, speaker.rate_hz)
+    line = _Line(speaker.name, speaker.rate_hz, lead_s, tail_s)
     skipped: dict[str, None] = {}
     try:
         for piece in _split_at_pauses(text, pauses):
@@ -121,11 +125,11 @@ def _shorten(text: str, most: int) -> str:
 class _Line:
     """Utterances laid one after another with the silence between them that each asks for."""
 
-    def __init__(self, voice: str, rate_hz: int) -> None:
+    def __init__(self, voice: str, rate_hz: int, lead_s: float, tail_s: float) -> None:
         self._voice, self._rate_hz = voice, rate_hz
         self._length = 0
-        self._pause = round(LEAD_S * rate_hz)
-        self._tail = round(TAIL_S * rate_hz)
+        self._pause = round(lead_s * rate_hz)
+        self._tail = self._usual_tail = round(tail_s * rate_hz)
         self._phones: list[tuple[int, str]] = []  # first sample and symbol; each lasts until the next
         self.words: list[Cue] = []
 
@@ -166,7 +170,7 @@ class _Line:
         self._append(end + shift, SILENCE)
         self._length = end + tail + shift
         self._pause = max(0, round(utterance.pause_s * rate) - tail)
-        self._tail = round(TAIL_S * rate)
+        self._tail = self._usual_tail
 
     def wait(self, length_s: float) -> None:
         """Lets the silence that comes next be so long."""

@@ -89,6 +89,20 @@ def split_passages(text: str, language: str = "en") -> Iterator[Passage]:
                     yield Passage(words, pause, goes_on, end if final else begin + stop)
 
 
+def find_complete(text: str, language: str = "en") -> list[int]:
+    """Where the sentences end that are complete in a text that is still being written, in characters.
+
+    A sentence is complete once something that is no blank follows it, or, if nothing does yet, a blank.
+    """
+    return [passage.end for passage in split_passages(text + "A", language)][:-1]
+
+
+def find_clause(text: str, longest: int, shortest: int) -> int:
+    """How many characters the clauses are that a text begins with, within some lengths; 0 where none ends there."""
+    ends = [match.end() for match in _CLAUSE_END.finditer(text, 0, longest) if match.end() >= shortest]
+    return ends[-1] if ends else 0
+
+
 def _split_lines(text: str) -> Iterator[tuple[int, int, int]]:
     """First character of each line, the one after its last, and the first of the next line."""
     place = 0

@@ -53,6 +53,11 @@ def test_silence_before_and_after_is_as_long_as_a_film_needs():
     np.testing.assert_array_equal(np.flatnonzero(speech.sound.samples), np.arange(lead, lead + 200))
 
 
+def test_silence_before_and_after_can_be_asked_for():
+    speech = speak("a", Fake((hum(),)), lead_s=0.08, tail_s=0.5)
+    assert spans(speech) == [(0, 80, "SIL"), (80, 280, "AH1"), (280, 780, "SIL")]
+
+
 @pytest.mark.parametrize(("head", "tail"), [(0, 0), (10, 20), (100, 300), (900, 900)])
 def test_the_pause_between_utterances_is_the_one_asked_for(head: int, tail: int):
     speech = speak("a b", Fake((hum(head=head, tail=tail, pause_s=0.4), hum("b", head=head, tail=tail))))
