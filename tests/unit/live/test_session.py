@@ -1,8 +1,6 @@
 """Sessions: commands end where they said, layers give back what they took, logs give the same frames."""
 
-import hashlib
 import json
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -10,41 +8,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from mien.core import Cue, LoadError, MienError, Sound
+from mien.core import LoadError, MienError
 from mien.live import IDLE_PARTS, KINDS, Session, read_log, replay, standard_motions
 from mien.live.idle import Idle
-from mien.live.messages import check_message
-from mien.live.saying import make_utterance
-from mien.speech import Speech
 from mien.vocab import vocabulary
+from sessions import FACES, SAY, STILL, digest, ok, run, still
 from support import face
-
-STILL = dict.fromkeys(IDLE_PARTS, 0.0)
-FACES = ("head", "toon:olav", "toon:gus")
-PHONES = [[0.0, 0.1, "HH"], [0.1, 0.25, "AH0"], [0.25, 0.35, "L"], [0.35, 0.7, "OW1"], [0.7, 0.9, "SIL"]]
-SAY = {"kind": "say", "text": "Hello", "phones": PHONES, "words": [[0.0, 0.7, "Hello"]], "id": "7"}
-WIDE = {"head": "jaw.rotation", "toon:olav": "mouth.bottom", "toon:gus": "mouth.bottom"}
-
-
-def still(name="head", **more):
-    return Session(face(name), idle=STILL, **more)
-
-
-def run(session, loops):
-    return [session.step() for _ in range(loops)]
-
-
-def ok(session, **message):
-    reply = session.handle(message)
-    assert reply["kind"] in ("ok", "state"), reply
-    return reply
-
-
-def digest(frames):
-    found = hashlib.sha256()
-    for frame in frames:
-        found.update(frame.pose.values.tobytes())
-    return found.hexdigest()
 
 
 @pytest.mark.parametrize("name", FACES)
@@ -103,110 +72,6 @@ def test_one_bad_value_in_a_batch_moves_nothing():
 
 def test_pupils_go_as_far_as_the_face_lets_them():
     assert "on 'head' it goes from" in still().handle({"kind": "move", "values": {"PLH": 80}})["message"]
-
-
-@pytest.mark.parametrize("name", FACES)
-def test_speech_gives_back_what_it_borrowed(name):
-    session, row = still(name), WIDE[name]
-    ok(session, kind="move", values={row: 0.9})
-    ok(session, kind="play", motion="smile", hold=True)
-    before = run(session, 130)[-1].pose
-    loops = ok(session, **SAY)["loops"]
-    said = run(session, loops)
-    assert len({frame.pose[row] for frame in said}) > 20
-    after = run(session, 30)[-1].pose
-    np.testing.assert_array_equal(after.values, before.values)
-
-
-def test_speech_tells_when_it_starts_and_ends_and_the_next_text_follows():
-    session = still()
-    replies = [ok(session, **SAY, more=True), ok(session, **{**SAY, "id": "8"})]
-    assert [reply["speech"] for reply in replies] == [0, 1]
-    first, second = (reply["loops"] for reply in replies)
-    assert session.unsaid_s == pytest.approx((first + second) / 60)
-    frames = run(session, first + second + 9)
-    assert session.unsaid_s == 0.0
-    events = [
-        (frame.loop, event["event"], event["id"], event["speech"], event.get("more"))
-        for frame in frames
-        for event in frame.events
-    ]
-    assert events == [
-        (0, "speech.started", "7", 0, None),
-        (0, "speech.word", "7", 0, None),
-        (first - 1, "speech.ended", "7", 0, True),
-        (first, "speech.started", "8", 1, None),
-        (first, "speech.word", "8", 1, None),
-        (first + second - 1, "speech.ended", "8", 1, False),
-    ]
-
-
-def prepared(session, **more):
-    message = check_message(SAY)
-    made = make_utterance(message["text"], message["phones"], message["words"], rate=session.rate, seed=session.seed)
-    return message, replace(made, **more)
-
-
-def test_an_utterance_made_beforehand_is_said_as_one_made_on_the_spot():
-    by_hand, on_the_spot = still(seed=3), still(seed=3)
-    for session in (by_hand, on_the_spot):
-        ok(session, kind="say", text="First", phones=PHONES)
-    assert by_hand.handle(*prepared(by_hand)) == ok(on_the_spot, **SAY)
-    assert digest(run(by_hand, 150)) == digest(run(on_the_spot, 150))
-
-
-def test_acts_of_an_utterance_come_at_their_loop_and_again_in_a_replay():
-    log, smile = [], check_message({"kind": "play", "motion": "smile"})
-    session = still(log=log.append)
-    rest = run(session, 1)[0].pose
-    session.handle(*prepared(session, acts={50: (smile,)}))
-    frames = run(session, 150)
-    session.close()
-    assert [json.loads(line).get("loop") for line in log] == [None, 1, 51, None]
-    assert frames[-1].pose["mouth.expression.left"] != rest["mouth.expression.left"]
-    assert digest(list(replay(read_log(log), face("head")))[1:]) == digest(frames)
-
-
-def test_acts_that_cannot_be_are_told_and_those_of_what_was_dropped_are_not_done():
-    dance = check_message({"kind": "play", "motion": "dance"})
-    session = still()
-    session.handle(*prepared(session, acts={2: (dance,)}))
-    session.handle(*prepared(session, acts={0: (dance,)}))
-    failed = [event for frame in run(session, 9) for event in frame.events if event["event"] == "speech.failed"]
-    assert [(event["speech"], event["id"]) for event in failed] == [(0, "7")]
-    assert "unknown motion 'dance'" in failed[0]["message"]
-    ok(session, kind="interrupt")
-    assert "speech.failed" not in [event["event"] for frame in run(session, 99) for event in frame.events]
-
-
-def test_what_chance_does_with_a_text_does_not_depend_on_those_before():
-    channels = []
-    for before in (0, 2):
-        session = still(seed=5)
-        for _ in range(before):
-            ok(session, kind="say", text="Before", phones=PHONES)
-        ok(session, **SAY)
-        channels.append(session._said[-1].utterance.channels.tobytes())
-    assert channels[0] == channels[1]
-
-
-@pytest.mark.parametrize("loop_s", [1 / 60, 1 / 25, 0.1])
-@pytest.mark.parametrize("name", FACES)
-def test_an_interruption_shuts_the_mouth_within_100_ms(name, loop_s):
-    session = Session(face(name), loop_s=loop_s, idle=STILL)
-    row = WIDE[name]
-    rest = session.face.neutral[row]
-    long = [[0.0, 2.0, "AA1"], [2.0, 2.5, "SIL"]]
-    ok(session, kind="play", motion="laugh")
-    ok(session, kind="say", text="aaah", phones=long, id="a")
-    ok(session, kind="say", text="and more", phones=long, id="b")
-    assert run(session, int(0.7 / loop_s))[-1].pose[row] > 0.2
-    ok(session, kind="interrupt")
-    frames = run(session, int(0.1 / loop_s + 1e-6))
-    assert frames[-1].pose[row] == rest
-    assert [(event["id"], event["broken_off"]) for event in frames[0].events] == [("a", True), ("b", True)]
-    moved = [frame.pose[row] for frame in run(session, int(3.0 / loop_s))]
-    assert set(moved) == {rest}
 
 
 @pytest.mark.parametrize("over_ms", [0, 500])
@@ -269,37 +134,6 @@ def test_channels_are_moved_in_the_layers_that_they_belong_to():
     )
     ok(session, kind="stop", layer="speech")
     assert run(session, 40)[-1].pose["jaw.rotation"] == 0.0
-
-
-def test_a_voice_is_asked_once_and_its_phones_are_logged():
-    heard = []
-
-    def voice(text):
-        heard.append(text)
-        cues = tuple(Cue(*cue) for cue in PHONES)
-        return Speech(text, Sound(np.zeros(100, dtype=np.int16), 8000), (), cues, (), "none")
-
-    log = []
-    session = still(log=log.append, voice=voice)
-    ok(session, kind="say", text="Hello")
-    frames = run(session, 30)
-    session.close()
-    assert heard == ["Hello"]
-    assert json.loads(log[1])["message"]["phones"] == PHONES
-    assert digest(replay(read_log(log), face("head"))) == digest(frames)
-
-
-def test_without_a_voice_a_text_needs_phones():
-    assert "no voice" in still().handle({"kind": "say", "text": "Hello"})["message"]
-    reply = still().handle({"kind": "say", "text": "Hello", "phones": [[0, 1, "QQ"]], "id": "x"})
-    assert reply["id"] == "x"
-    assert "QQ" in reply["message"]
-
-
-def test_texts_that_wait_are_bounded():
-    session = still()
-    kinds = [session.handle(SAY)["kind"] for _ in range(70)]
-    assert kinds.count("ok") == 64
 
 
 @settings(max_examples=40, deadline=None)
