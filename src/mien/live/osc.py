@@ -6,7 +6,7 @@ Source: Wright 2002, The Open Sound Control 1.0 Specification.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -20,6 +20,9 @@ Call = tuple[str, tuple[Argument, ...]]
 
 PREFIX = "/mien"
 BUNDLE = b"#bundle\0"
+AT_ONCE = 1
+"""The time tag of what is to be done when it comes."""
+
 DEEPEST = 8
 MOST_CALLS = 1000
 
@@ -70,6 +73,22 @@ def encode_call(address: str, *arguments: float | int | str) -> bytes:
         else:
             tags, data = tags + "f", data + struct.pack(">f", argument)
     return _padded(address) + _padded(tags) + data
+
+
+def encode_bundles(packets: Iterable[bytes], most: int) -> Iterator[bytes]:
+    """Bundles of packets, in order, each of so many bytes at most and to be acted on at once.
+
+    A packet that is longer has a bundle of its own.
+    """
+    head = BUNDLE + struct.pack(">Q", AT_ONCE)
+    bundle = head
+    for packet in packets:
+        if len(bundle) > len(head) and len(bundle) + 4 + len(packet) > most:
+            yield bundle
+            bundle = head
+        bundle += struct.pack(">i", len(packet)) + packet
+    if len(bundle) > len(head):
+        yield bundle
 
 
 def _move(name: str, value: Argument, over_ms: Argument = 0, /) -> dict[str, Any]:

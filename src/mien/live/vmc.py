@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from mien.core import Face, MienError
+from mien.core import Face, MienError, Pose
 from mien.vocab import load_remap, next_step, pose_from, vocabulary
 
 from .fields import show
@@ -56,10 +56,11 @@ class VmcReceiver:
     Args:
         face: who plays it.
         loop_s: length of a loop, seconds.
+        rest: the pose that all of it is on top of; None is neutral.
     """
 
-    def __init__(self, face: Face, loop_s: float) -> None:
-        self.face = face
+    def __init__(self, face: Face, loop_s: float, rest: Pose | None = None) -> None:
+        self.face, self.rest = face, rest or face.neutral
         self._hold = count_slices(HOLD_S, loop_s)
         self._known = {
             spelling.lower(): (name, vocabulary(name).resolve(spelling)[0])
@@ -109,7 +110,7 @@ class VmcReceiver:
 
     def values(self) -> dict[str, float]:
         """The parameters of the face that names and bones reach, by what has been applied."""
-        pose, reached = self.face.neutral, dict[str, None]()
+        pose, reached = self.rest, dict[str, None]()
         for name in VOCABULARIES:
             given = {each: value for (known, each), value in self._applied.items() if known == name}
             pose = pose_from(name, given, self.face, pose)
@@ -119,7 +120,7 @@ class VmcReceiver:
         for bone, angles in self._angles():
             for number, parameter, gain in self._axes[bone]:
                 row = self.face.parameters[parameter]
-                value = found.get(parameter, row.default) + gain * angles[number]
+                value = found.get(parameter, self.rest[parameter]) + gain * angles[number]
                 found[parameter] = min(max(value, row.low), row.high)
         return found
 

@@ -143,22 +143,33 @@ def _say(name: str, wish: Points, given: Mapping[str, Points]) -> Loss:
     return Loss(name, FITS[angle >= LEAST_GAIN_DEG], longest(wish), used, angle)
 
 
-def nearest_shares(square: Matrix, products: Matrix) -> Matrix:
+def nearest_shares(square: Matrix, products: Matrix, start: Matrix | None = None, still: float = 0.0) -> Matrix:
     """(N,) shares 0..1 of N vectors whose sum comes nearest to a wanted one.
 
     Args:
         square: (N, N) products of the vectors with one another.
         products: (N,) products of the vectors with the wanted one.
+        start: (N,) shares to begin with; zeros, if there are none.
+        still: a round that changes no share by more than this is the last.
 
     Source: coordinate descent for least squares with bounds; the problem is convex.
     """
-    shares = np.zeros(len(products))
+    shares = [0.0] * len(products) if start is None else start.tolist()
+    missed = products - square @ np.array(shares)
+    sizes = np.diag(square).tolist()
     for _ in range(SWEEPS):
-        for n in range(len(shares)):
-            if square[n, n] > 0.0:
-                better = shares[n] + (products[n] - square[n] @ shares) / square[n, n]
-                shares[n] = min(max(better, 0.0), 1.0)
-    return shares
+        farthest = 0.0
+        for n, size in enumerate(sizes):
+            if size > 0.0:
+                better = min(max(shares[n] + float(missed[n]) / size, 0.0), 1.0)
+                change = better - shares[n]
+                if change:
+                    missed -= square[n] * change
+                    shares[n] = better
+                    farthest = max(farthest, abs(change))
+        if farthest <= still:
+            break
+    return np.array(shares)
 
 
 def _fields(name: str, face: Face) -> dict[str, Points]:

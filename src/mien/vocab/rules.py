@@ -50,6 +50,23 @@ KINDS: Mapping[str, Callable[[float, float, float], float]] = {
 }
 
 
+def _undo_way(value: float, other: float, share: float) -> float:
+    left = 1.0 - share * min(other, 1.0)
+    return value / left if left > 0.0 else value
+
+
+def _undo_part(value: float, other: float, share: float) -> float:
+    whole = other * (1.0 - share) + share
+    return value * other / whole if whole > 0.0 else value
+
+
+UNDO: Mapping[str, Callable[[float, float, float], float]] = {
+    "gives way to": _undo_way,
+    "is part of": _undo_part,
+    "is seen beside": _keep,
+}
+
+
 @cache
 def load_rules(vocabulary: str) -> tuple[Rule, ...]:
     """The rules of a vocabulary; many have none."""
@@ -79,3 +96,13 @@ def settle(values: Mapping[str, float], rules: Iterable[Rule]) -> dict[str, floa
         if rule.name in settled:
             settled[rule.name] = KINDS[rule.kind](settled[rule.name], values.get(rule.other, 0.0), rule.share)
     return settled
+
+
+def unsettle(values: Mapping[str, float], rules: Iterable[Rule]) -> dict[str, float]:
+    """The values that ``settle`` makes into these, 0..1; the inverse where no name of a rule is beside another's."""
+    given = dict(values)
+    for rule in rules:
+        if rule.name in given:
+            value = UNDO[rule.kind](given[rule.name], given.get(rule.other, 0.0), rule.share)
+            given[rule.name] = min(max(value, 0.0), 1.0)
+    return given

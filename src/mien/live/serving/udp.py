@@ -36,7 +36,7 @@ class OscPort(asyncio.DatagramProtocol):
         self.received = self.ignored = 0
         self.reason = ""
         self._animator = animator
-        self._tracker = VmcReceiver(animator.session.face, animator.session.loop_s)
+        self._tracker = VmcReceiver(animator.session.face, animator.session.loop_s, animator.session.rest)
         self._waiting: deque[bytes] = deque()
         self._news = asyncio.Event()
         self._told = -1
