@@ -154,9 +154,6 @@ class Animator:
                 frame = self._step()
             self._show(frame)
             self.report = deadlines.report
-            self._spent = 0.0
-            self._stepped.set()
-            self._stepped.clear()
             # However late the loops are, sockets get their turn.
             await asyncio.sleep(0)
 
@@ -166,6 +163,9 @@ class Animator:
             self._tell({**event, "loop": frame.loop})
         for hook in self._hooks:
             hook(frame)
+        self._spent = 0.0
+        self._stepped.set()
+        self._stepped.clear()
         return frame
 
     def _tell(self, event: Mapping[str, Any]) -> None:

@@ -8,7 +8,7 @@ import logging
 import secrets
 import socket
 import sys
-from collections.abc import AsyncIterator, Callable, Iterator, Mapping
+from collections.abc import AsyncIterator, Iterator, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from ipaddress import ip_address
@@ -18,14 +18,15 @@ from urllib.parse import urlencode
 import uvicorn
 
 from mien.core import MienError
+from mien.live.link import DEFAULT_PORT
 
+from .about import describe
 from .animator import Animator
 from .guard import Guard
 from .sockets import MOST_BYTES, make_app
 from .tcp import serve_tcp
-from .udp import serve_udp
+from .udp import OscPort, serve_udp
 
-DEFAULT_PORT = 8765
 LONGEST_GOODBYE_S = 2.0
 SWITCH_S = 0.001
 """A thread that computes lets the loop go on after this time, seconds; Python's own is five times as long."""
@@ -54,6 +55,11 @@ class Doors:
     tcp_port: int | None = None
     udp_port: int | None = None
 
+    def link(self, port: int) -> str:
+        """The address of the page on a port, with the token."""
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(self.host, self.host)
+        return f"http://{_bracketed(host)}:{port}/?{urlencode({'token': self.token})}"
+
     @property
     def is_loopback(self) -> bool:
         """Whether only programs on this machine can come in."""
@@ -69,7 +75,7 @@ class Opened:
 
     Attributes:
         link: of the page, with its token.
-        ports: by what they are for: ``page``, ``tcp``, ``udp``.
+        ports: by what they are for: ``page``, ``tcp``, ``osc``.
         work: ends only where something is wrong with it.
     """
 
@@ -85,19 +91,23 @@ class Opened:
 
 
 @asynccontextmanager
-async def open_server(
-    animator: Animator, doors: Doors, about: Callable[[], Mapping[str, Any]]
-) -> AsyncIterator[Opened]:
+async def open_server(animator: Animator, doors: Doors) -> AsyncIterator[Opened]:
     """A server with all its doors, while the body runs; the loop of the face runs with it.
 
     Raises:
         MienError: a door cannot be opened; names it.
     """
     async with AsyncExitStack() as stack:
-        listener = stack.enter_context(_bind(doors.host, doors.port))
+        with _naming("--port", doors.host, doors.port):
+            listener = stack.enter_context(_bind(doors.host, doors.port))
         port: int = listener.getsockname()[1]
-        hosts, origins = allowed(doors, port)
-        app = Guard(make_app(animator, about), port, doors.token, hosts, origins)
+        ports = {"page": port}
+        osc = await _open_others(animator, doors, ports, stack)
+
+        def about() -> dict[str, Any]:
+            return {**describe(animator), "ports": ports} | ({} if osc is None else {"osc": osc.report()})
+
+        app = Guard(make_app(animator, about), port, doors.token, *allowed(doors, port))
         server = _Server(
             uvicorn.Config(
                 app,
@@ -117,8 +127,6 @@ async def open_server(
         )
         # What a client does wrong is no news.
         logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
-        ports = {"page": port}
-        await _open_others(animator, doors, ports, stack)
         serving = asyncio.create_task(server.serve([listener]))
         looping = asyncio.create_task(animator.run())
         before = sys.getswitchinterval()
@@ -126,10 +134,7 @@ async def open_server(
         gc.collect()
         gc.freeze()  # what is there stays; a collection need not look at it again
         try:
-            name = "localhost" if doors.is_loopback or doors.host in ("0.0.0.0", "::") else doors.host
-            yield Opened(
-                f"http://{_bracketed(name)}:{port}/?{urlencode({'token': doors.token})}", ports, (serving, looping)
-            )
+            yield Opened(doors.link(port), ports, (serving, looping))
         finally:
             gc.unfreeze()
             sys.setswitchinterval(before)
@@ -142,18 +147,23 @@ async def open_server(
             await asyncio.gather(looping, return_exceptions=True)
 
 
-async def _open_others(animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack) -> None:
-    """Open the doors that are shut unless asked for."""
+async def _open_others(
+    animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack
+) -> OscPort | None:
+    """Open the doors that are shut unless asked for; the one for OSC."""
     if doors.tcp_port is not None:
         with _naming("--tcp-port", doors.host, doors.tcp_port):
             server = await serve_tcp(animator, doors.host, doors.tcp_port)
         stack.callback(server.close)
         ports["tcp"] = server.sockets[0].getsockname()[1]
-    if doors.udp_port is not None:
-        with _naming("--osc-port", doors.host, doors.udp_port):
-            transport = await serve_udp(animator, doors.host, doors.udp_port)
-        stack.callback(transport.close)
-        ports["udp"] = transport.get_extra_info("sockname")[1]
+    if doors.udp_port is None:
+        return None
+    with _naming("--osc-port", doors.host, doors.udp_port):
+        transport = await serve_udp(animator, doors.host, doors.udp_port)
+    stack.callback(transport.close)
+    ports["osc"] = transport.get_extra_info("sockname")[1]
+    protocol = transport.get_protocol()
+    return protocol if isinstance(protocol, OscPort) else None
 
 
 @contextmanager
@@ -163,7 +173,8 @@ def _naming(option: str, host: str, port: int) -> Iterator[None]:
         yield
     except (OSError, OverflowError) as error:
         raise MienError(
-            f"{option}: cannot listen on {_bracketed(host)}:{port} ({error}) — 0 takes any that is free"
+            f"{option}: cannot listen on {_bracketed(host)}:{port} ({error}) — is another server running there ('mien "
+            "doctor' tells)? 0 takes any port that is free"
         ) from None
 
 
@@ -192,14 +203,8 @@ def _bracketed(host: str) -> str:
 
 
 def _bind(host: str, port: int) -> socket.socket:
-    try:
-        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
-        return socket.create_server((host, port), family=family, backlog=256)
-    except (OSError, OverflowError) as error:
-        raise MienError(
-            f"cannot listen on {_bracketed(host)}:{port} ({error}) — is another server running there ('mien doctor' "
-            "tells)? --port 0 takes any port that is free"
-        ) from None
+    family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    return socket.create_server((host, port), family=family, backlog=256)
 
 
 class _Server(uvicorn.Server):

@@ -12,7 +12,6 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from mien.core import Face
 from mien.live import Frame, Session
-from mien.live.serving.about import describe
 from mien.live.serving.animator import Animator
 from mien.live.serving.server import Doors, Opened, open_server
 from mien.live.wire import FRAME, HEADER, SETUP, VERSION
@@ -53,7 +52,7 @@ async def live_server(
     session = Session(subject or face("head"), loop_s, idle=STILL)
     animator = Animator(session, encoder or Plain())
     doors = doors or Doors(port=0)
-    async with open_server(animator, doors, lambda: describe(animator)) as opened:
+    async with open_server(animator, doors) as opened:
         yield Live(animator, opened, doors)
 
 

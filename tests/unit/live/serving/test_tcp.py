@@ -315,7 +315,7 @@ def test_a_server_opens_its_other_doors_and_shuts_them():
     async def whole() -> None:
         doors = Doors(port=0, tcp_port=0, udp_port=0)
         async with live_server(face("toon:pip"), doors) as live:
-            assert set(live.opened.ports) == {"page", "tcp", "udp"}
+            assert set(live.opened.ports) == {"page", "tcp", "osc"}
             client = Client(*await asyncio.open_connection("127.0.0.1", live.opened.ports["tcp"]))
             assert await client.ask(b"ELU 0.25") == {"kind": "ok"}
             with pytest.raises(MienError, match="--tcp-port: cannot listen"):
