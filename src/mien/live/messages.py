@@ -62,6 +62,11 @@ class Message:
     def __getitem__(self, name: str) -> Any:
         return self.fields[name]
 
+    @property
+    def ends_speech(self) -> bool:
+        """Whether nothing that was to be said before is said after it."""
+        return self.kind in ("interrupt", "reset") or (self.kind == "stop" and self["layer"] in (None, "speech"))
+
     def to_json(self) -> dict[str, Any]:
         """The message as JSON has it, with all of its fields that hold something."""
         found: dict[str, Any] = {"kind": self.kind} | ({} if self.id is None else {"id": self.id})

@@ -62,7 +62,9 @@ def test_version(capfd: pytest.CaptureFixture[str]) -> None:
     assert output(capfd, "--version").strip() == f"mien {mien.__version__}"
 
 
-@pytest.mark.parametrize("command", ["say", "render", "play", "faces", "params", "presets", "voices", "warmup", "doctor"])
+@pytest.mark.parametrize(
+    "command", ["say", "render", "play", "faces", "params", "presets", "voices", "warmup", "doctor"]
+)
 def test_every_command_explains_itself_with_an_example(command: str, capfd: pytest.CaptureFixture[str]) -> None:
     assert f"  mien {command}" in output(capfd, command, "--help")
     assert f"  {command} " in output(capfd, "--help")

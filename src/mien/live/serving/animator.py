@@ -21,9 +21,10 @@ from mien.live.fields import show
 from mien.live.loop import Deadlines, Report
 from mien.live.messages import Message, check_message, parse_batch, refusal
 from mien.live.session import Frame, Session
-from mien.live.wire import Pcm, check_rate
+from mien.live.wire import Pcm, check_rate, sound_message
 
 from .outbox import Outbox
+from .speaker import Failure, Part
 
 MOST_CLIENTS = 200
 """Connections at one time."""
@@ -43,6 +44,14 @@ class Encoder(Protocol):
     @property
     def setup(self) -> bytes: ...  # noqa: D102
     def encode(self, frame: Frame) -> bytes: ...  # noqa: D102
+
+
+class Speaks(Protocol):
+    """What makes texts into sound and movement: ``speaker.Speaker``."""
+
+    def say(self, message: Message) -> None: ...  # noqa: D102
+    def cancel(self) -> None: ...  # noqa: D102
+    def tick(self, unsaid_s: float) -> None: ...  # noqa: D102
 
 
 class Animator:
@@ -69,6 +78,8 @@ class Animator:
     ) -> None:
         self.session, self.encoder = session, encoder
         self.report = Report()
+        self.speaker: Speaks | None = None
+        """Says texts; without one only those with phones are said."""
         self.outboxes: list[Outbox] = []
         self.messages = 0
         self.delays_s: deque[float] = deque(maxlen=MOST_DELAYS)
@@ -79,6 +90,7 @@ class Animator:
         self._spent = 0.0
         self._stepped = asyncio.Event()
         self._acts: Mapping[str, Callable[[Message, Outbox | None], dict[str, Any]]] = {
+            "say": self._say,
             "subscribe": self._subscribe,
             "speech.pcm": self._hear_text,
             "report": self._keep_report,
@@ -116,6 +128,8 @@ class Animator:
             message = value if isinstance(value, Message) else check_message(value)
             act = self._acts.get(message.kind)
             if act is None:
+                if message.ends_speech and self.speaker is not None:
+                    self.speaker.cancel()
                 return self.session.handle(message)
             identity = {} if message.id is None else {"id": message.id}
             return {"kind": "ok", **identity, **act(message, outbox)}
@@ -135,6 +149,19 @@ class Animator:
             self._spent += self._clock() - began
         answers = [self.handle(value, outbox) for value in batch]
         return json.dumps(answers if data.lstrip()[:1] in (b"[", "[") else answers[0])
+
+    def deliver(self, made: Part | Failure) -> None:
+        """Say what the speaker has made of a text, or tell everybody that it could not."""
+        if isinstance(made, Part):
+            answer = self.session.handle(made.message, made.utterance)
+            if answer["kind"] == "ok":
+                if made.samples is not None:
+                    self._send_sound(sound_message(answer["speech"], made.samples, made.rate_hz))
+                return
+            made = Failure(answer["message"], made.message.id, made.message["more"])
+        known = {} if made.id is None else {"id": made.id}
+        failed = {"kind": "event", "event": "speech.failed", "message": made.message, "more": made.more, **known}
+        self._tell({**failed, "loop": self.session.loop})
 
     def hear(self, sound: Pcm) -> dict[str, Any]:
         """Move the mouth with a live voice."""
@@ -158,6 +185,8 @@ class Animator:
             await asyncio.sleep(0)
 
     def _step(self) -> Frame:
+        if self.speaker is not None:
+            self.speaker.tick(self.session.unsaid_s)
         frame = self.session.step()
         for event in frame.events:
             self._tell({**event, "loop": frame.loop})
@@ -174,6 +203,11 @@ class Animator:
             if outbox.events:
                 outbox.put(text)
 
+    def _send_sound(self, sound: bytes) -> None:
+        for outbox in self.outboxes:
+            if outbox.sound:
+                outbox.put(sound)
+
     def _show(self, frame: Frame) -> None:
         """Hand the newest picture to all who want one; nobody draws one that nobody sees."""
         if not any(outbox.open_for_pictures for outbox in self.outboxes):
@@ -189,6 +223,15 @@ class Animator:
 
     def _watching(self) -> Iterable[Outbox]:
         return (outbox for outbox in self.outboxes if outbox.frames)
+
+    def _say(self, message: Message, outbox: Outbox | None) -> dict[str, Any]:
+        if self.speaker is None:
+            answer = self.session.handle(message)
+            if answer["kind"] == "error":
+                raise MienError(answer["message"])
+            return answer
+        self.speaker.say(message)
+        return {}
 
     def _subscribe(self, message: Message, outbox: Outbox | None) -> dict[str, Any]:
         if outbox is None:
