@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import doctor, faces, lipsync, params, play, presets, render, replay, say, toon, vocab, voices, warmup
+from . import doctor, faces, lipsync, live, params, play, presets, render, replay, say, toon, vocab, voices, warmup
 
 app = typer.Typer(
     name="mien",
@@ -22,6 +22,7 @@ for command in (
     lipsync.lipsync,
     render.render,
     play.play,
+    live.live,
     replay.replay,
     faces.faces,
     params.params,

@@ -1,0 +1,211 @@
+"""Meshes as bytes: in the setup how a cage becomes a surface, in each frame the cage and what else has changed."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Mesh, MienError, Scene, Topology
+from mien.core.sparse import SparseMatrix
+from mien.core.subdivision import refine
+from mien.render.pixels import to_srgb
+from mien.render.plan import plan_shading
+from mien.render.shade import own_normals
+
+from .quantising import Steps
+
+Ints = NDArray[np.int64]
+Arrays = Mapping[str, NDArray[Any]]
+
+COUNTS = struct.Struct("<f5I")
+"""Step, 0 for a mesh, points, normals, runs of changed colours, colours in them."""
+
+MOST_COLORS = 1 << 16
+"""A run begins at a number of sixteen bits."""
+
+LIVELY = 0.25
+"""Colours of a larger share of places than this belong into a setup, once they do not change from frame to frame."""
+
+
+class MeshFrames:
+    """Setup and frames of meshes of one topology; whose colours stay, mostly, those of the first."""
+
+    def __init__(self, mesh: Mesh, scene: Scene) -> None:
+        if len(mesh.colors) > MOST_COLORS:
+            raise MienError(f"a mesh of {len(mesh.colors)} colours cannot be sent — at most {MOST_COLORS} can")
+        self._topology, self._scene = mesh.topology, scene
+        self._surface = describe_surface(mesh.topology, scene, mesh.colored_by_polygon)
+        self._steps = Steps((mesh.points.min(axis=0) + mesh.points.max(axis=0)) * 0.5)
+        self._colors, self._last = mesh.colors, mesh.colors
+        self._codes = to_srgb(mesh.colors)
+
+    def describe(self) -> dict[str, Any]:
+        """Camera, light and parts."""
+        return {"shape": "mesh", **describe_scene(self._scene), "middle": self._steps.middle.tolist()} | {
+            "parts": self._surface.parts,
+            "colored_by": "polygon" if self._surface.colored_by_polygon else "vertex",
+            "points": self._topology.vertex_count,
+            "refined_points": self._surface.refined_points,
+        }
+
+    def arrays(self) -> Arrays:
+        """What makes a surface of a cage, and colours."""
+        return {**self._surface.arrays, "colors": self._codes}
+
+    def fits(self, mesh: Any) -> bool:
+        """Whether its topology is the same, and its colours are not other ones for good."""
+        if not isinstance(mesh, Mesh) or mesh.topology is not self._topology or len(mesh.colors) != len(self._colors):
+            return False
+        last, self._last = self._last, mesh.colors
+        most = LIVELY * len(mesh.colors)
+        differing = np.count_nonzero(_differing(mesh.colors, self._colors))
+        return differing <= most or np.count_nonzero(_differing(mesh.colors, last)) > most
+
+    def encode(self, mesh: Mesh) -> bytes:
+        """Step, counts, points, runs of changed colours, normals of round parts, changed colours."""
+        points = self._steps.encode(mesh.points)
+        changed = np.flatnonzero(_differing(mesh.colors, self._colors))
+        codes = to_srgb(mesh.colors[changed])
+        seen = (codes != self._codes[changed]).any(axis=1)
+        changed, codes = changed[seen], codes[seen]
+        runs = _find_runs(changed)
+        vertices = self._surface.round_vertices
+        normals = own_normals(mesh)[vertices] if len(vertices) else np.zeros((0, 3))
+        counts = COUNTS.pack(self._steps.step, 0, len(points), len(normals), len(runs), len(codes))
+        rounded = np.rint(normals * 127.0).astype(np.int8)
+        return b"".join((counts, points.tobytes(), runs.tobytes(), rounded.tobytes(), codes.tobytes()))
+
+
+def _differing(colors: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(V,) whether they differ, and the colours are numbers."""
+    if colors is others:
+        return np.zeros(len(colors), dtype=bool)
+    channels = colors != others
+    return channels[:, 0] | channels[:, 1] | channels[:, 2]
+
+
+def _find_runs(numbers: Ints) -> NDArray[np.uint16]:
+    """(R, 2) first number and how many follow one another, of ascending numbers."""
+    first = np.flatnonzero(np.diff(numbers, prepend=-2) != 1)
+    lengths = np.diff(first, append=len(numbers))
+    return np.stack([numbers[first], lengths], axis=1).astype("<u2")
+
+
+def describe_scene(scene: Scene) -> dict[str, Any]:
+    """Camera, lamps, ambient light and background as JSON."""
+    return {
+        "camera": {"position": scene.position, "at": scene.at, "fov_deg": scene.fov_deg},
+        "background": scene.behind(),
+        "lamps": [{"position": lamp.position, "color": lamp.color, "wrap": lamp.wrap} for lamp in scene.lamps],
+        "lamps_follow": not scene.lights,
+        "ambient": scene.ambient,
+        "cosine_power": scene.cosine_power,
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What a viewer does with every cage, and what the parts of the surface are made of.
+
+    Attributes:
+        parts: rows for JSON, in the order of drawing.
+        arrays: for the viewer; docs/frames.md says of what.
+        refined_points: of the surface.
+        round_vertices: (Q,) vertices of the cage whose normals are sent.
+        colored_by_polygon: whether a colour belongs to a polygon of the cage, not to a vertex.
+    """
+
+    parts: list[dict[str, Any]]
+    arrays: Arrays
+    refined_points: int
+    round_vertices: Ints
+    colored_by_polygon: bool
+
+
+def describe_surface(topology: Topology, scene: Scene, colored_by_polygon: bool) -> Surface:
+    """The surface that subdivision makes of a topology, as ``render.plan`` lights it."""
+    fine, matrix, parents = _refine(topology, scene.subdivide)
+    plan = plan_shading(fine, scene.shading == "polygon", colored_by_polygon)
+    corner_point, corner_node = plan.triangles.T, plan.triangle_front.astype(np.int64)
+    polygon = fine.polygon_of_triangle[:, None]
+    if colored_by_polygon:
+        color = np.broadcast_to(parents[polygon], corner_point.shape)
+    else:
+        # Colours of a flat polygon are the mean of its corners': it is named by a number below 0.
+        color = np.where(plan.polygon[corner_node] >= 0, -1 - polygon, corner_point)
+    lowest = int(color.min(initial=0))
+    span = int(color.max(initial=0)) - lowest + 1
+    key = (corner_point * len(plan.vertex) + corner_node) * span + (color - lowest)
+    _, first, triangles = np.unique(key, return_index=True, return_inverse=True)
+    rows, starts, columns, weights = matrix.mixed
+    sums = plan.normal_sum
+    arrays = {
+        "matrix_rows": rows,
+        "matrix_starts": starts,
+        "matrix_columns": columns,
+        "matrix_weights": weights.astype(np.float32),
+        "polygon_starts": fine.starts,
+        "polygon_corners": fine.corners,
+        "node_starts": sums.starts,
+        "node_polygons": sums.columns,
+        "round_nodes": plan.round,
+        "vertex_points": corner_point.ravel()[first],
+        "vertex_nodes": corner_node.ravel()[first],
+        "vertex_colors": color.ravel()[first].astype(np.int32),
+        "triangles": triangles.reshape(-1),
+    }
+    small = {name: _smallest(array) for name, array in arrays.items()}
+    return Surface(_parts(fine, scene.gloss), small, fine.vertex_count, plan.vertex[plan.round], colored_by_polygon)
+
+
+def _refine(topology: Topology, levels: int) -> tuple[Topology, SparseMatrix, Ints]:
+    """The finer topology, one matrix (V', V) of all steps, and the first polygon (F',) that each of its comes from."""
+    count = topology.vertex_count
+    every = np.arange(count)
+    matrix = SparseMatrix.from_entries(every, every, np.ones(count), (count, count))
+    parents = np.arange(topology.polygon_count)
+    for _ in range(levels):
+        step = refine(topology)
+        topology, parents = step.topology, parents[step.polygon_parent]
+        matrix = _product(step.matrix, matrix)
+    return topology, matrix, parents
+
+
+def _product(second: SparseMatrix, first: SparseMatrix) -> SparseMatrix:
+    """The matrix that does what ``first`` and then ``second`` do."""
+    counts = np.diff(first.starts)[second.columns]
+    row = np.repeat(np.arange(second.shape[0]), np.diff(second.starts))
+    before = np.cumsum(counts) - counts
+    entries = np.repeat(first.starts[second.columns] - before, counts) + np.arange(int(counts.sum()))
+    weights = np.repeat(second.weights, counts) * first.weights[entries]
+    shape = (second.shape[0], first.shape[1])
+    return SparseMatrix.from_entries(np.repeat(row, counts), first.columns[entries], weights, shape)
+
+
+def _parts(topology: Topology, gloss: float) -> list[dict[str, Any]]:
+    """Name, material and run of triangles of every part; ``gloss`` is a factor on all highlights."""
+    ends = np.concatenate([[0], np.cumsum(np.diff(topology.starts) - 2)])
+    return [
+        {
+            "name": part.name,
+            "first": int(ends[part.first]),
+            "count": int(ends[part.last] - ends[part.first]),
+            "gloss": part.material.gloss * gloss,
+            "power": part.material.gloss_power,
+            "lit": part.material.lit,
+            "two_sided": part.material.two_sided,
+        }
+        for part in topology.parts
+    ]
+
+
+def _smallest(array: NDArray[Any]) -> NDArray[Any]:
+    """The same whole numbers from 0 in 16 or 32 bits; others as they are."""
+    if array.dtype.kind == "f" or array.dtype == np.int32:
+        return array
+    return array.astype(np.uint16 if array.max(initial=0) < 1 << 16 else np.uint32)

@@ -1,0 +1,167 @@
+/**
+ * Meshes by WebGL2: light on every pixel, orbit by dragging; a double click turns back.
+ *
+ * @import { MeshFrame, Setup } from "./frames.js"
+ */
+
+import { fitPixels } from "./canvas.js";
+import { Orbit, project } from "./orbit.js";
+import * as shaders from "./shaders.js";
+import { Surface } from "./surface.js";
+
+export class MeshView {
+  /** @param {HTMLCanvasElement} canvas @param {Setup} setup */
+  constructor(canvas, setup) {
+    this.canvas = canvas;
+    this.setup = setup;
+    this.surface = new Surface(setup);
+    this.orbit = new Orbit(canvas, () => this.paint());
+    const gl = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    if (!gl) throw new Error("this browser has no WebGL2, which a head is drawn by");
+    this.gl = gl;
+    this.drawn = false;
+    this.listeners = new AbortController();
+    const { signal } = this.listeners;
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault(), { signal });
+    canvas.addEventListener("webglcontextrestored", () => this.restore(), { signal });
+    fitPixels(canvas);
+    this.prepare();
+  }
+
+  /** @param {MeshFrame} frame */
+  draw(frame) {
+    const recolored = this.surface.update(frame);
+    this.drawn = true;
+    if (this.gl.isContextLost()) return;
+    this.upload(recolored);
+    this.paint();
+  }
+
+  /** The canvas has another size: draws the last frame again. */
+  resize() {
+    if (fitPixels(this.canvas)) this.paint();
+  }
+
+  dispose() {
+    this.listeners.abort();
+    this.orbit.dispose();
+    const { gl } = this;
+    for (const buffer of [...Object.values(this.buffers), this.triangles]) gl.deleteBuffer(buffer);
+    gl.deleteVertexArray(this.vertices);
+    for (const program of [this.program, this.behind]) gl.deleteProgram(program.program);
+  }
+
+  /** Programs and buffers: at the start, and when the context has come back. */
+  prepare() {
+    const { gl, surface } = this;
+    this.program = link(gl, shaders.SURFACE_VERTEX, shaders.SURFACE_FRAGMENT);
+    this.behind = link(gl, shaders.BACKGROUND_VERTEX, shaders.BACKGROUND_FRAGMENT);
+    this.vertices = gl.createVertexArray();
+    gl.bindVertexArray(this.vertices);
+    this.buffers = {
+      point: this.attribute("point", surface.points),
+      normal: this.attribute("normal", surface.normals),
+      color: this.attribute("color", surface.colors),
+    };
+    this.triangles = gl.createBuffer();
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.triangles);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.setup.arrays.triangles, gl.STATIC_DRAW);
+  }
+
+  restore() {
+    this.prepare();
+    if (this.drawn) this.paint();
+  }
+
+  /** @param {string} name @param {Float32Array} values three a vertex */
+  attribute(name, values) {
+    const { gl } = this;
+    const place = gl.getAttribLocation(this.program.program, name);
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+    return buffer;
+  }
+
+  /** @param {boolean} recolored whether colours have changed too */
+  upload(recolored) {
+    const { gl, surface, buffers } = this;
+    const rows = [
+      [buffers.point, surface.points],
+      [buffers.normal, surface.normals],
+      ...(recolored ? [[buffers.color, surface.colors]] : []),
+    ];
+    for (const [buffer, values] of rows) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferSubData(gl.ARRAY_BUFFER, 0, values);
+    }
+  }
+
+  /** Draws what was sent last, as it is seen from here. */
+  paint() {
+    const { gl, canvas, setup } = this;
+    if (!this.drawn || gl.isContextLost()) return;
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.CULL_FACE);
+    gl.useProgram(this.behind.program);
+    gl.uniform4fv(this.behind.place("ends"), setup.background.flat());
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.enable(gl.DEPTH_TEST);
+    gl.useProgram(this.program.program);
+    this.light();
+    gl.bindVertexArray(this.vertices);
+    const { BYTES_PER_ELEMENT, constructor } = setup.arrays.triangles;
+    const kind = constructor === Uint16Array ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT;
+    for (const part of setup.parts) {
+      if (part.two_sided) gl.disable(gl.CULL_FACE);
+      else gl.enable(gl.CULL_FACE);
+      gl.uniform3f(this.program.place("material"), part.gloss, part.power, part.lit ? 1 : 0);
+      gl.drawElements(gl.TRIANGLES, 3 * part.count, kind, 3 * part.first * BYTES_PER_ELEMENT);
+    }
+  }
+
+  /** Camera and lamps. */
+  light() {
+    const { gl, canvas, setup, program, orbit } = this;
+    const { camera, lamps } = setup;
+    const position = orbit.turn(camera.position, camera.at);
+    gl.uniformMatrix4fv(program.place("projection"), false, project(camera, position, canvas.width, canvas.height));
+    gl.uniform3fv(program.place("viewer"), position);
+    gl.uniform3fv(program.place("ambient"), setup.ambient.flat());
+    const seen = lamps.slice(0, shaders.MOST_LAMPS);
+    const places = seen.map((lamp) => (setup.lamps_follow ? orbit.swing(lamp.position) : lamp.position));
+    gl.uniform1i(program.place("lampCount"), seen.length);
+    if (seen.length) {
+      gl.uniform4fv(program.place("lampPlace"), seen.flatMap((lamp, n) => [...places[n], lamp.wrap]));
+      gl.uniform3fv(program.place("lampColor"), seen.flatMap((lamp) => lamp.color));
+    }
+    gl.uniform1f(program.place("cosinePower"), setup.cosine_power);
+  }
+}
+
+/** @param {WebGL2RenderingContext} gl @param {string} vertex @param {string} fragment */
+function link(gl, vertex, fragment) {
+  const program = gl.createProgram();
+  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+    gl.deleteShader(shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+    throw new Error(`a shader does not link: ${gl.getProgramInfoLog(program)}`);
+  }
+  const places = new Map();
+  const place = (/** @type {string} */ name) => {
+    if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
+    return places.get(name);
+  };
+  return { program, place };
+}
