@@ -1,4 +1,4 @@
-"""Drawings as bytes: every frame has all its paths; an outline that paths share or cut one another with is sent once."""
+"""Drawings as bytes: every frame has all its paths; outlines that paths share, or cut one another with, go once."""
 
 from __future__ import annotations
 

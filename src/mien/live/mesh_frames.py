@@ -64,7 +64,7 @@ class MeshFrames:
         last, self._last = self._last, mesh.colors
         most = LIVELY * len(mesh.colors)
         differing = np.count_nonzero(_differing(mesh.colors, self._colors))
-        return differing <= most or np.count_nonzero(_differing(mesh.colors, last)) > most
+        return bool(differing <= most or np.count_nonzero(_differing(mesh.colors, last)) > most)
 
     def encode(self, mesh: Mesh) -> bytes:
         """Step, counts, points, runs of changed colours, normals of round parts, changed colours."""
