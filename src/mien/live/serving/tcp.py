@@ -22,9 +22,11 @@ MOST_CONNECTIONS = 64
 STALLED_S = 10.0
 """A client that reads nothing for so long, while something waits for it, is dropped."""
 
+BURST = 8
+"""Lines of one client that are handled before others have their turn."""
+
 HTTP = re.compile(rb"\S+ \S+ HTTP/\d|(host|origin|user-agent|content-type|content-length) *:", re.IGNORECASE)
-"""How a line of HTTP begins. Pages of any site can make a browser send such lines to a port of this machine, with
-commands of ours behind them."""
+"""How a line of HTTP begins. Pages of any site can make a browser send such lines, with commands behind them."""
 
 WEBSOCKET_ONLY = ("frames", "sound")
 """What cannot be subscribed to in lines: it is binary."""
@@ -33,27 +35,20 @@ WEBSOCKET_ONLY = ("frames", "sound")
 async def serve_tcp(animator: Animator, host: str, port: int) -> asyncio.Server:
     """A server, which listens already, of lines (``mien.live.lines``).
 
-    Any bytes are answered: a line that is too long with an error, after which the next line counts again. A line of
-    HTTP ends the connection. Messages wait for their turn (``Animator.turn``), and are not read faster than their
-    answers are.
+    Any bytes are answered; a line of HTTP ends the connection. Lines wait for their turn (``Animator.turn``), and are
+    not read faster than their answers are.
 
     Raises:
         OSError: the port is taken, or there is no such host.
     """
-    open_ones: set[asyncio.StreamWriter] = set()
+    open_ones: set[asyncio.Task[None]] = set()
 
-    async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        open_ones.add(writer)
-        try:
-            await _serve(animator, reader, writer, full=len(open_ones) > MOST_CONNECTIONS)
-        except OSError:  # TimeoutError is one
-            # It has gone, or reads nothing: what still waits for it is thrown away.
-            writer.transport.abort()
-        finally:
-            open_ones.discard(writer)
-            writer.close()
+    def connect(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        task = asyncio.create_task(_serve(animator, reader, writer, full=len(open_ones) == MOST_CONNECTIONS))
+        open_ones.add(task)
+        task.add_done_callback(open_ones.discard)
 
-    return await asyncio.start_server(serve, host, port, limit=LONGEST_LINE)
+    return await asyncio.start_server(connect, host, port, limit=LONGEST_LINE)
 
 
 async def _serve(animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, *, full: bool) -> None:
@@ -62,9 +57,20 @@ async def _serve(animator: Animator, reader: asyncio.StreamReader, writer: async
         if full:
             raise MienError(f"{MOST_CONNECTIONS} connections are open on this port — no more are let in")
         animator.join(outbox)
+        await _attend(animator, reader, writer, outbox)
     except MienError as error:
-        await _write(writer, format_reply(refusal(error)))
-        return
+        writer.write(format_reply(refusal(error)))
+    except OSError:  # TimeoutError is one
+        # It has gone, or reads nothing: what still waits for it is thrown away.
+        writer.transport.abort()
+    finally:
+        writer.close()
+
+
+async def _attend(
+    animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, outbox: Outbox
+) -> None:
+    """Answer a client and tell it events, until one of the two is over."""
     answering = asyncio.create_task(_answer_lines(animator, reader, writer, outbox))
     telling = asyncio.create_task(_tell(writer, outbox))
     try:
@@ -82,8 +88,11 @@ async def _serve(animator: Animator, reader: asyncio.StreamReader, writer: async
 async def _answer_lines(
     animator: Animator, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, outbox: Outbox
 ) -> None:
+    number = 0
     async for line in read_lines(reader):
-        await animator.turn()
+        if number % BURST == 0:
+            await animator.turn()
+        number += 1
         if line is not None and HTTP.match(line):
             error = MienError("this port takes lines such as PLAY smile, not HTTP")
             await _write(writer, format_reply(refusal(error)))
@@ -135,5 +144,6 @@ async def read_lines(reader: asyncio.StreamReader) -> AsyncIterator[bytes | None
 
 async def _write(writer: asyncio.StreamWriter, line: bytes) -> None:
     writer.write(line)
-    async with asyncio.timeout(STALLED_S):
-        await writer.drain()
+    if writer.transport.get_write_buffer_size():
+        async with asyncio.timeout(STALLED_S):
+            await writer.drain()

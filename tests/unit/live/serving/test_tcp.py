@@ -327,3 +327,17 @@ def test_a_server_opens_its_other_doors_and_shuts_them():
             await asyncio.open_connection("127.0.0.1", live.opened.ports["tcp"])
 
     asyncio.run(whole())
+
+
+def test_connections_that_are_open_when_all_ends_end_without_a_word(caplog):
+    async def whole() -> None:
+        animator = Animator(Session(face("toon:pip"), idle=STILL), Plain(), clock=lambda: 0.0)
+        server = await serve_tcp(animator, "127.0.0.1", 0)
+        _, writer = await asyncio.open_connection("127.0.0.1", server.sockets[0].getsockname()[1])
+        while not animator.outboxes:
+            await asyncio.sleep(0)
+        server.close()
+        writer.close()
+
+    asyncio.run(whole())
+    assert caplog.records == []
