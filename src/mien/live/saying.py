@@ -98,13 +98,17 @@ def make_utterance(text: str, phones: Cues, words: Cues, *, rate: Fraction, seed
         accents = find_accents(spelled, said, own)
         length_s = said[-1].end_s
         tracks |= {"head_nod": nods(accents, length_s, own), "brow_raise": brow_raises(accents, length_s, own)}
-    loops = 1 + max(int(np.ceil(track.length_s * float(rate))) for track in tracks.values())
-    times = time_of(np.arange(loops, dtype=np.float64), rate)
+    longest = 1 + max(int(np.ceil(track.length_s * float(rate))) for track in tracks.values())
+    times = time_of(np.arange(longest, dtype=np.float64), rate)
     table = vocabulary(CHANNELS)
-    channels = np.zeros((len(table), loops))
+    channels = np.zeros((len(table), longest))
     for name, track in tracks.items():
         # Once it is over, all of it is at rest.
         channels[table.index[name]] = np.where(times < track.length_s, track.evaluate(times)[0], 0.0)
+    # What is said next need not wait for tracks that have come to rest.
+    moved = 1 + int(np.flatnonzero(channels.any(axis=0)).max(initial=-1))
+    loops = 1 + max(int(np.ceil(said[-1].end_s * float(rate))), moved)
+    channels = np.ascontiguousarray(channels[:, :loops])
     events: dict[int, tuple[Mapping[str, Any], ...]] = {0: ({"event": "speech.started", "text": text},)}
     for number, word in enumerate(spelled):
         loop = min(int(word.start_s * float(rate)), loops - 1)

@@ -33,7 +33,7 @@ BORROW_S = 0.12
 GIVE_BACK_S = 0.25
 """Speech takes the mouth in this time, and gives it back in this."""
 
-MOST_SAID = 64
+MOST_SAID = 1_000
 MOST_SAID_S = 600.0
 """Texts that can wait for being said, and how long they may be together."""
 

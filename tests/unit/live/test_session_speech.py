@@ -8,7 +8,8 @@ import pytest
 
 from mien.core import Cue, Sound
 from mien.live import Session, check_message, read_log, replay
-from mien.live.saying import make_utterance
+from mien.live.saying import Turn, make_utterance
+from mien.live.session import MOST_SAID, MOST_SAID_S
 from mien.speech import Speech
 from sessions import FACES, PHONES, SAY, STILL, WIDE, digest, ok, run, still
 from support import face
@@ -143,7 +144,25 @@ def test_without_a_voice_a_text_needs_phones():
     assert "QQ" in reply["message"]
 
 
-def test_texts_that_wait_are_bounded():
-    session = still()
-    kinds = [session.handle(SAY)["kind"] for _ in range(70)]
-    assert kinds.count("ok") == 64
+def test_texts_that_wait_are_bounded_in_number_and_length():
+    session = still("toon:gus")
+    message, short = prepared(session)
+    kinds = [session.handle(message, short)["kind"] for _ in range(MOST_SAID + 5)]
+    assert kinds.count("ok") == min(MOST_SAID, int(MOST_SAID_S * 60 / short.loops))
+    ok(session, kind="interrupt")
+    tiny = replace(short, channels=short.channels[:, :2])
+    kinds = [session.handle(message, tiny)["kind"] for _ in range(MOST_SAID + 5)]
+    assert kinds.count("ok") == MOST_SAID
+
+
+def test_the_next_text_waits_for_the_end_of_the_sound_and_no_longer():
+    long = [*PHONES[:-1], [0.7, 1.5, "SIL"]]
+    hello = make_utterance("Hello", long, SAY["words"], rate=still().rate, seed=0)
+    assert hello.loops == 1 + 1.5 * 60
+    _, soon_over = prepared(still())
+    for utterance in (hello, soon_over):
+        assert not utterance.channels[:, -1].any()
+    assert soon_over.channels[:, -2].any()
+    silent = make_utterance("", ((0.0, 0.1, "SIL"),), (), rate=still().rate, seed=0)
+    assert silent.loops == 7
+    assert [event["event"] for event in Turn(silent, 0).events(6)] == ["speech.ended"]
