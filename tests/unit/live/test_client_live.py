@@ -1,0 +1,103 @@
+"""Both kinds of client with a real server."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mien
+from fake_live import KINDS
+from live_process import STILL, LiveProcess, live_process
+from mien import MienError
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveProcess]:
+    with live_process(tmp_path_factory.mktemp("run"), "--face", "toon:olav", "--idle", STILL) as running:
+        yield running
+
+
+@pytest.fixture(params=KINDS)
+def face(request: pytest.FixtureRequest, server: LiveProcess) -> Iterator[Any]:
+    with KINDS[request.param](server.link) as client:
+        client.reset(over_ms=0)
+        yield client
+
+
+def test_finds_the_server_by_itself(server: LiveProcess, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", server.environment["XDG_RUNTIME_DIR"])
+    monkeypatch.delenv("MIEN_LINK", raising=False)
+    with mien.Client() as face:
+        assert face.link.place in server.link
+
+
+def test_moves_and_reads_back(face: Any) -> None:
+    face.move(MB=1)
+    while face.state("MB")["MB"] < 1:
+        pass
+    face.send([{"kind": "reset", "over_ms": 0}, {"kind": "state"}])
+    assert face.send([]) == []
+    assert face.play("nod", strength=0.5)["loops"] > 1
+    assert face.about()["face"] == "toon:olav"
+    assert "smile" in face.about()["motions"]
+
+
+def test_refusals_are_the_server_s_words(face: Any) -> None:
+    with pytest.raises(MienError, match="unknown motion 'smlie' — did you mean 'smile'"):
+        face.play("smlie")
+    with pytest.raises(MienError, match="over_ms: -1 is out of range — it goes from 0 to 600000 ms"):
+        face.move(ELU=1, over_ms=-1)
+    with pytest.raises(MienError, match="want 0 to 100 of them, got 101"):
+        face.send([{"kind": "state"}] * 101)
+
+
+@pytest.mark.timeout(60)
+def test_speech_has_words_and_an_end(face: Any) -> None:
+    events = face.events()
+    said = face.say_stream(iter(["Hi", " there.", " Bye."]), wait=True)
+    assert not said.broken_off
+    heard = [next(events) for _ in range(3)]
+    assert [event["event"] for event in heard] == ["speech.started", "speech.word", "speech.word"]
+    assert {event["id"] for event in heard} == {said.id}
+    assert not face.say("Well.", wait=True).broken_off
+
+
+@pytest.mark.timeout(60)
+def test_somebody_else_can_break_it_off(face: Any, server: LiveProcess) -> None:
+    with mien.Client(server.link) as other:
+        events = other.events()
+
+        def pieces() -> Iterator[str]:
+            yield "This is a long story, which nobody wants to hear to its end. "
+            assert next(events)["event"] == "speech.started"
+            other.interrupt()
+            while next(events)["event"] != "speech.ended":
+                pass
+            for _ in range(1000):
+                yield "And so on. "
+            raise AssertionError("nobody told")
+
+        assert face.say_stream(pieces()).broken_off
+
+
+def test_a_live_voice_is_taken(face: Any) -> None:
+    assert face.hear(np.zeros(1600, np.int16), 16_000)["kind"] == "ok"
+
+
+def test_a_server_that_ends_says_so(tmp_path: Any) -> None:
+    async def talk(link: str) -> str:
+        async with mien.AsyncClient(link) as face:
+            await face.state()
+            return str(await asyncio.gather(ended(face), return_exceptions=True))
+
+    async def ended(face: mien.AsyncClient) -> None:
+        running.process.terminate()
+        async for _ in face.events():
+            pass
+
+    with live_process(tmp_path, "--face", "toon:olav") as running:
+        assert "the live face has gone" in asyncio.run(talk(running.link))
