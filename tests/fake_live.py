@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import contextmanager
 from threading import Thread
 from typing import Any
@@ -79,6 +79,7 @@ class Waited:
     """An ``AsyncClient`` whose calls are waited for, so that one test does for both kinds."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
+        self._events: list[Generator[Any, None, None]] = []
         self._loop = asyncio.new_event_loop()
         self._thread = Thread(target=self._loop.run_forever)
         self._thread.start()
@@ -106,7 +107,7 @@ class Waited:
         events = self._client.events()
         first = asyncio.run_coroutine_threadsafe(anext(events), self._loop)
 
-        def rest() -> Iterator[Any]:
+        def rest() -> Generator[Any, None, None]:
             try:
                 yield first.result(20)
                 while True:
@@ -116,12 +117,15 @@ class Waited:
             finally:
                 self._wait(events.aclose())
 
-        return rest()
+        self._events.append(rest())
+        return self._events[-1]
 
     def __enter__(self) -> Waited:
         return self
 
     def __exit__(self, *exception: object) -> None:
+        for events in self._events:
+            events.close()
         self._wait(self._client.close())
         self._stop()
 

@@ -26,7 +26,7 @@ class LiveProcess:
 @contextmanager
 def live_process(folder: Path, *options: str) -> Iterator[LiveProcess]:
     environment = {name: value for name, value in os.environ.items() if name != "MIEN_LINK"}
-    environment["XDG_RUNTIME_DIR"] = str(folder)
+    environment |= {"XDG_RUNTIME_DIR": str(folder), "XDG_CACHE_HOME": str(folder)}
     command = [sys.executable, "-m", "mien", "live", "--port", "0", "--quiet", *options]
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
-import numpy as np
 import pytest
 
 import mien
@@ -29,7 +29,8 @@ def face(request: pytest.FixtureRequest, server: LiveProcess) -> Iterator[Any]:
 
 
 def test_finds_the_server_by_itself(server: LiveProcess, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", server.environment["XDG_RUNTIME_DIR"])
+    for name in ("XDG_RUNTIME_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.setenv(name, server.environment[name])
     monkeypatch.delenv("MIEN_LINK", raising=False)
     with mien.Client() as face:
         assert face.link.place in server.link
@@ -60,9 +61,8 @@ def test_speech_has_words_and_an_end(face: Any) -> None:
     events = face.events()
     said = face.say_stream(iter(["Hi", " there.", " Bye."]), wait=True)
     assert not said.broken_off
-    heard = [next(events) for _ in range(3)]
-    assert [event["event"] for event in heard] == ["speech.started", "speech.word", "speech.word"]
-    assert {event["id"] for event in heard} == {said.id}
+    heard = [event["event"] for event in islice((event for event in events if event["id"] == said.id), 3)]
+    assert heard == ["speech.started", "speech.word", "speech.word"]
     assert not face.say("Well.", wait=True).broken_off
 
 
@@ -73,7 +73,8 @@ def test_somebody_else_can_break_it_off(face: Any, server: LiveProcess) -> None:
 
         def pieces() -> Iterator[str]:
             yield "This is a long story, which nobody wants to hear to its end. "
-            assert next(events)["event"] == "speech.started"
+            while next(events)["event"] != "speech.started":
+                pass
             other.interrupt()
             while next(events)["event"] != "speech.ended":
                 pass
@@ -82,10 +83,6 @@ def test_somebody_else_can_break_it_off(face: Any, server: LiveProcess) -> None:
             raise AssertionError("nobody told")
 
         assert face.say_stream(pieces()).broken_off
-
-
-def test_a_live_voice_is_taken(face: Any) -> None:
-    assert face.hear(np.zeros(1600, np.int16), 16_000)["kind"] == "ok"
 
 
 def test_a_server_that_ends_says_so(tmp_path: Any) -> None:
