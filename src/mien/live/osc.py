@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import islice
 from types import MappingProxyType
 from typing import Any
 
@@ -38,9 +39,9 @@ def decode_packet(data: bytes) -> list[Call]:
     Raises:
         MienError: it is no packet; says at which byte.
     """
-    calls = list(_decode(data, 0, len(data), 0))
+    calls = list(islice(_decode(data, 0, len(data), 0), MOST_CALLS + 1))
     if len(calls) > MOST_CALLS:
-        raise MienError(f"OSC: {len(calls)} messages in one packet — at most {MOST_CALLS} are read")
+        raise MienError(f"OSC: more than {MOST_CALLS} messages in one packet")
     return calls
 
 

@@ -113,7 +113,7 @@ class VmcReceiver:
         pose, reached = self.rest, dict[str, None]()
         for name in VOCABULARIES:
             given = {each: value for (known, each), value in self._applied.items() if known == name}
-            pose = pose_from(name, given, self.face, pose)
+            pose = pose_from(name, given, self.face, pose) if given else pose
             for each in given:
                 reached |= dict.fromkeys(self._reach[name].get(each, ()))
         found = {parameter: float(pose[parameter]) for parameter in reached}

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mien.core import MienError
 from mien.live import KINDS, check_message
 from mien.live.lines import FORMS, parse_line
-from mien.live.osc import CALLS, DEEPEST, WANTED, decode_packet, encode_call, message_from
+from mien.live.osc import CALLS, DEEPEST, MOST_CALLS, WANTED, decode_packet, encode_call, message_from
 
 
 def complaint(read, *given):
@@ -171,6 +171,13 @@ def test_bundles_that_are_nested_too_deeply_are_refused():
         data = bundle(data)
     with pytest.raises(MienError, match="nested"):
         decode_packet(data)
+
+
+def test_packets_of_too_many_messages_are_refused():
+    most = [encode_call("/a")] * MOST_CALLS
+    assert len(decode_packet(bundle(*most))) == MOST_CALLS
+    with pytest.raises(MienError, match=f"more than {MOST_CALLS}"):
+        decode_packet(bundle(*most, most[0], b"what stands behind is not even looked at"))
 
 
 def test_addresses_of_others_are_none_of_ours_and_wrong_ones_are_named():
