@@ -187,9 +187,7 @@ class Session:
 
     def _speak(self) -> tuple[Mapping[str, Any], ...]:
         """Go on to the next utterance where one is over, and lend or give back the mouth; what happens."""
-        if self._said and self._said_loops == self._said[0].utterance.loops:
-            self._said.popleft()
-            self._said_loops = 0
+        self._forget_said()
         speaking = bool(self._said) or bool(self._speech.values.any()) or self._speech.moving
         if speaking != self._speaking:
             self._speaking = speaking
@@ -203,6 +201,12 @@ class Session:
             events += (turn.failed(reply["message"]) for reply in replies if reply["kind"] == "error")
             events += turn.events(self._said_loops)
         return tuple(events)
+
+    def _forget_said(self) -> None:
+        """Let go of an utterance that is over."""
+        if self._said and self._said_loops == self._said[0].utterance.loops:
+            self._said.popleft()
+            self._said_loops = 0
 
     def _slices(self, over_s: float) -> int:
         return count_slices(over_s, self.loop_s)
@@ -325,6 +329,7 @@ class Session:
 
     def _stop_speech(self, slices: int) -> None:
         """What is being said breaks off: the mouth goes to rest from where it is."""
+        self._forget_said()
         if self._said_loops:
             self._speech.values[:] = self._mouth(self._said_loops - 1)
         self._happened += (turn.ended(broken_off=True) for turn in self._said)

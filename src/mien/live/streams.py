@@ -38,6 +38,11 @@ class Streams:
         return identity in self._streams
 
     @property
+    def open(self) -> list[Identity]:
+        """Those of which more is to come."""
+        return list(self._streams)
+
+    @property
     def characters(self) -> int:
         """How many wait."""
         return sum(len(stream.text) for stream in self._streams.values())

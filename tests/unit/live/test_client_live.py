@@ -85,6 +85,19 @@ def test_somebody_else_can_break_it_off(face: Any, server: LiveProcess) -> None:
         assert face.say_stream(pieces()).broken_off
 
 
+@pytest.mark.timeout(60)
+def test_a_text_that_was_not_begun_is_broken_off_too(face: Any, server: LiveProcess) -> None:
+    with mien.Client(server.link) as other:
+
+        def pieces() -> Iterator[str]:
+            yield "Half a sen"
+            other.interrupt()
+            yield "tence. "
+            raise AssertionError("nobody told")
+
+        assert face.say_stream(pieces()).broken_off
+
+
 def test_a_server_that_ends_says_so(tmp_path: Any) -> None:
     async def talk(link: str) -> str:
         async with mien.AsyncClient(link) as face:

@@ -119,6 +119,15 @@ def test_an_interruption_shuts_the_mouth_within_100_ms(name, loop_s):
     assert set(moved) == {rest}
 
 
+def test_what_has_ended_is_not_broken_off_as_well():
+    session = still()
+    frames = run(session, ok(session, **SAY)["loops"])
+    assert frames[-1].events[-1]["event"] == "speech.ended"
+    ok(session, kind="interrupt")
+    assert session.step().events == ()
+    assert session.unsaid_s == 0.0
+
+
 def test_a_voice_is_asked_once_and_its_phones_are_logged():
     heard = []
 

@@ -50,7 +50,7 @@ class Speaks(Protocol):
     """What makes texts into sound and movement: ``speaker.Speaker``."""
 
     def say(self, message: Message) -> None: ...  # noqa: D102
-    def cancel(self) -> None: ...  # noqa: D102
+    def cancel(self) -> Iterable[str | None]: ...  # noqa: D102
     def tick(self, unsaid_s: float) -> None: ...  # noqa: D102
 
 
@@ -129,7 +129,7 @@ class Animator:
             act = self._acts.get(message.kind)
             if act is None:
                 if message.ends_speech and self.speaker is not None:
-                    self.speaker.cancel()
+                    self._break_off(self.speaker.cancel())
                 return self.session.handle(message)
             identity = {} if message.id is None else {"id": message.id}
             return {"kind": "ok", **identity, **act(message, outbox)}
@@ -162,6 +162,13 @@ class Animator:
         known = {} if made.id is None else {"id": made.id}
         failed = {"kind": "event", "event": "speech.failed", "message": made.message, "more": made.more, **known}
         self._tell({**failed, "loop": self.session.loop})
+
+    def _break_off(self, dropped: Iterable[str | None]) -> None:
+        """Tell of texts that end without having been said; the session tells of those that it was given."""
+        for identity in dropped:
+            known = {} if identity is None else {"id": identity}
+            ended = {"kind": "event", "event": "speech.ended", "broken_off": True, "more": False, **known}
+            self._tell({**ended, "loop": self.session.loop})
 
     def hear(self, sound: Pcm) -> dict[str, Any]:
         """Move the mouth with a live voice."""

@@ -118,6 +118,7 @@ class Speaker:
         self._news = asyncio.Event()
         self._streams = Streams()
         self._waiting: deque[_Waiting] = deque()
+        self._making: Message | None = None
         self._cancelled = 0
         self._unsaid_s = 0.0
         self._language = "en"
@@ -164,11 +165,15 @@ class Speaker:
                 raise MienError("say: the text is empty — write what is to be said")
             self._wait_for(message, whole, more=False)
 
-    def cancel(self) -> None:
-        """Deliver nothing any more of what was asked for before."""
+    def cancel(self) -> tuple[Identity, ...]:
+        """Deliver nothing any more of what was asked for before; the texts that this leaves without an end."""
+        messages = ([self._making] if self._making else []) + [waiting.message for waiting in self._waiting]
+        dropped = dict.fromkeys([message.id for message in messages] + self._streams.open)
         self._cancelled += 1
+        self._making = None
         self._waiting.clear()
         self._streams.clear()
+        return tuple(dropped)
 
     def tick(self, unsaid_s: float) -> None:
         """Go on where there is something to do; called at every loop.
@@ -203,6 +208,7 @@ class Speaker:
                 await self._news.wait()
             cancelled, waiting = self._cancelled, self._waiting[0]
             message, task = self._take(waiting)
+            self._making = message
             try:
                 delivery: Part | Failure = _part(message, await (await self._ready()).make(task))
             except StoppedError as error:
@@ -212,6 +218,7 @@ class Speaker:
                 await self._dismiss()
             except MienError as error:
                 delivery = Failure(str(error), message.id, message["more"])
+            self._making = None
             if cancelled == self._cancelled:
                 if isinstance(delivery, Part):
                     self._unsaid_s += float(delivery.utterance.loops / self._setup.rate)

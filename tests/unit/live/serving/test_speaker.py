@@ -181,14 +181,21 @@ def test_what_was_cancelled_is_not_delivered_though_it_is_being_made():
         stage.workers[0].may.clear()
         stage.say("One. Two. Three.")
         stage.say("Half a", id="s", more=True)
+        stage.say("Whole.", id="w")
         assert await stage.settle() == []
-        stage.speaker.cancel()
+        assert stage.speaker.cancel() == (None, "w", "s")
+        assert stage.speaker.cancel() == ()
         stage.say("Four.")
         stage.workers[0].may.set()
         assert await stage.settle() == [("Four.", None, False)]
         assert stage.workers[0].asked == ["One.", "Four."]
         stage.say("Fresh.", id="s")
         assert await stage.settle() == [("Fresh.", "s", False)]
+        assert stage.speaker.cancel() == ()
+        stage.workers[0].may.clear()
+        stage.say("The last one.", id="l")
+        await stage.settle()
+        assert stage.speaker.cancel() == ("l",)
 
     play(scene)
 
