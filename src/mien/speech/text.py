@@ -35,6 +35,7 @@ _CLAUSE_END = re.compile(r"[,;:—–][\"”’)\]»]*\s")
 _OPENING = "(\"“'‘[«"
 _EDGE = '.,;:!?…"“”„«»()[]{}<>*_`~—–|'
 _APOSTROPHES = "'‘’"
+_ANSWERS = ("No", "no")  # a whole sentence, unless a number follows
 
 
 @dataclass(frozen=True)
@@ -154,6 +155,8 @@ def _is_abbreviation(block: str, match: re.Match[str], language: str) -> bool:
         return False
     word = block[max(0, match.start() - 12) : match.start()].split(" ")[-1].lstrip(_OPENING)
     word = "#" if word.isdecimal() and len(word) < 3 else word
+    if word in _ANSWERS:
+        return block[match.end()].isdecimal()
     return word in read_abbreviations(language) or (len(word) == 1 and word.isupper() and word != "I")
 
 

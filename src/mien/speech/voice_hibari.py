@@ -203,6 +203,7 @@ def _tame(text: str, knows: Callable[[str], bool]) -> str:
     """Text without what hibari would misread or drop: links, money behind the number, endless numbers and words."""
     text = text.translate({ord("["): "(", ord("]"): ")"})
     text = re.sub(r"(?<=\d)½", " and a half", text)
+    text = re.sub(r"\bno\.(?!\s*\d)", "No.", text)  # of which hibari would make a number
     text = re.sub(r"(?<![$£€¥\d.,])(\d[\d.,]*)\s?([$£€¥])(?!\s?\d)", r"\2\1", text)
     text = re.sub(rf"\d[\d,]{{{LONGEST_NUMBER},}}", lambda match: " ".join(match.group().replace(",", "")), text)
     return re.sub(rf"[^\W\d_]{{{LONGEST_GUESS + 1},}}", lambda match: _split_word(match.group(), knows), text)

@@ -114,6 +114,8 @@ def test_two_processes_say_the_same(poem: Speech):
         ("1½", "W AH N AE N D AH HH AE F"),
         ("Dr. Smith", "D AA K T ER S M IH TH"),
         ("x²", "EH K S S K W EH R D"),
+        ("Oh no.", "OW N OW"),
+        ("no. 5", "N AH M B ER F AY V"),
         ("don't", "D OW N T"),
         ("naïve", "N AY IY V"),
         ("π", "P AY"),

@@ -12,6 +12,8 @@ from mien.speech.text import (
     LONGEST_PASSAGE,
     PARAGRAPH_PAUSE_S,
     SENTENCE_PAUSE_S,
+    find_clause,
+    find_complete,
     match_words,
     prepare_word,
     read_spoken_symbols,
@@ -47,6 +49,7 @@ def test_a_line_broken_by_an_editor_is_no_line_of_verse():
         ("Dr. Smith met J. K. Rowling. They left.", ["Dr. Smith met J. K. Rowling.", "They left."]),
         ("It costs 3.50 at 5 p.m. on weekdays.", ["It costs 3.50 at 5 p.m. on weekdays."]),
         ("Well ... maybe... Yes.", ["Well ... maybe...", "Yes."]),
+        ("I said no. No. Never. See No. 5.", ["I said no.", "No.", "Never.", "See No. 5."]),
         ("So do I. You too.", ["So do I.", "You too."]),
         ("one\r\ntwo\u2028three", ["one", "two", "three"]),
         (" \n\t\n", []),
@@ -54,6 +57,21 @@ def test_a_line_broken_by_an_editor_is_no_line_of_verse():
 )
 def test_sentences(text: str, want: list[str]):
     assert passages(text) == want
+
+
+def test_sentences_of_a_text_that_is_being_written_are_complete_when_something_follows():
+    assert find_complete("It is 3.") == []
+    assert find_complete("It is 3. ") == [9]
+    assert find_complete("It is 3.5 m. We") == [13]
+    assert find_complete("Ask Dr. Smith. Or J. ") == [15]
+    assert find_complete("Am 3. Mai. Oder am 4. ", "de") == [11]
+
+
+def test_clauses_are_found_within_lengths():
+    text = "So, as it is late, we go home: now."
+    assert find_clause(text, 100, 1) == len("So, as it is late, we go home: ")
+    assert find_clause(text, 25, 1) == len("So, as it is late, ")
+    assert find_clause(text, 10, 5) == 0
 
 
 def test_pauses_grow_with_the_boundary():
