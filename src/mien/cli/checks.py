@@ -148,7 +148,7 @@ def check_servers(environment: Mapping[str, str] = os.environ) -> Iterator[Line]
 
 def _check_server(server: Running) -> Line:
     """A server that runs: where, what it says of itself. Its token is nobody else's business."""
-    from mien.live.client import fetch
+    from mien.live.reaching import fetch
 
     address, about = server.address, f"{server.face}, live"
     others = [f"{name} port {port}" for name, port in server.ports.items() if name != "page"]

@@ -3,81 +3,26 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import os
-from collections.abc import AsyncIterable, AsyncIterator, Awaitable, Iterable, Iterator, Mapping
+from collections.abc import AsyncIterable, AsyncIterator, Awaitable, Iterable, Iterator
 from concurrent.futures import Future
 from contextlib import AsyncExitStack, ExitStack, asynccontextmanager, contextmanager, suppress
-from dataclasses import replace
-from http.client import HTTPConnection, HTTPException, HTTPSConnection
 from queue import SimpleQueue
 from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any, Self
 
 from mien.core import MienError
 
-from .calls import (
-    CLOSED,
-    OVER,
-    SUBSCRIBE,
-    Answer,
-    Calls,
-    Event,
-    Exchange,
-    Payload,
-    Said,
-    Talk,
-    encode,
-    new_id,
-    read_answer,
-    read_event,
-    read_outcome,
-    say_message,
-)
-from .link import Link, parse_link
-from .serving.runtime import find_server
+from .calls import SUBSCRIBE, Calls, encode, read_answer, say_message
+from .exchange import CLOSED, OVER, Answer, Event, Exchange, Payload, Said, Talk, new_id, read_event, read_outcome
+from .reaching import choose_link, connection_options, fetch, gone, opening
 
 if TYPE_CHECKING:
     from websockets.asyncio.client import ClientConnection
 
 OPEN_S = 10.0
-CLOSE_S = 2.0
 
 Outcome = Said | MienError
-
-
-def choose_link(link: str | None, token: str | None, environment: Mapping[str, str]) -> Link:
-    """The link that was given, or that of MIEN_LINK, or of the one server that runs.
-
-    Raises:
-        MienError: it is no link, has no token, or there is not exactly one server.
-    """
-    text = link or environment.get("MIEN_LINK")
-    found = parse_link(text) if text else find_server(environment).address
-    found = replace(found, token=token) if token else found
-    if not found.token:
-        raise MienError(f"{found.place}: the link has no token — give all of what 'mien live' printed, or token=")
-    return found
-
-
-def fetch(link: Link, path: str, timeout_s: float) -> Any:
-    """What a server tells at a path, JSON.
-
-    Raises:
-        MienError: it does not answer, or refuses.
-    """
-    connection = (HTTPSConnection if link.secure else HTTPConnection)(link.host, link.port, timeout=timeout_s)
-    try:
-        connection.request("GET", path, headers=link.headers)
-        response = connection.getresponse()
-        data = response.read()
-        if response.status != 200:
-            raise _refused(link, response.status)
-        return json.loads(data)
-    except (OSError, HTTPException, ValueError) as error:
-        raise _unreached(link, error) from None
-    finally:
-        connection.close()
 
 
 class Client(Calls[Answer, list[Answer]]):
@@ -103,8 +48,10 @@ class Client(Calls[Answer, list[Answer]]):
         self._timeout_s = timeout_s
         self._exchange, self._sending, self._stack = Exchange(), Lock(), ExitStack()
         self._subscribed = False
-        with _opening(self.link):
-            self._connection = self._stack.enter_context(connect(self.link.socket, **_options(self.link, timeout_s)))
+        with opening(self.link):
+            self._connection = self._stack.enter_context(
+                connect(self.link.socket, **connection_options(self.link, timeout_s))
+            )
         self._reader = Thread(target=self._read, name="mien-client", daemon=True)
         self._reader.start()
 
@@ -225,7 +172,7 @@ class Client(Calls[Answer, list[Answer]]):
         with suppress(ConnectionClosed):
             for data in self._connection:
                 self._exchange.take(data)
-        self._exchange.lose(_gone(self.link, self._connection))
+        self._exchange.lose(gone(self.link, self._connection))
 
 
 class AsyncClient(Calls[Awaitable[Answer], Awaitable[list[Answer]]]):
@@ -257,8 +204,8 @@ class AsyncClient(Calls[Awaitable[Answer], Awaitable[list[Answer]]]):
         """
         from websockets.asyncio.client import connect
 
-        with _opening(self.link):
-            opened = connect(self.link.socket, **_options(self.link, self._timeout_s))
+        with opening(self.link):
+            opened = connect(self.link.socket, **connection_options(self.link, self._timeout_s))
             self._connection = await self._stack.enter_async_context(opened)
         self._reader = asyncio.create_task(self._read(self._connection))
         return self
@@ -351,7 +298,7 @@ class AsyncClient(Calls[Awaitable[Answer], Awaitable[list[Answer]]]):
         with suppress(ConnectionClosed):
             async for data in connection:
                 self._exchange.take(data)
-        self._exchange.lose(_gone(self.link, connection))
+        self._exchange.lose(gone(self.link, connection))
 
 
 async def _each(pieces: Iterable[str] | AsyncIterable[str]) -> AsyncIterator[str]:
@@ -361,47 +308,3 @@ async def _each(pieces: Iterable[str] | AsyncIterable[str]) -> AsyncIterator[str
     else:
         for piece in [pieces] if isinstance(pieces, str) else pieces:
             yield piece
-
-
-def _options(link: Link, timeout_s: float) -> dict[str, Any]:
-    """How both kinds of connection are made."""
-    return {
-        "additional_headers": link.headers,
-        "compression": None,
-        # What runs on this machine is not reached through a proxy.
-        "proxy": None,
-        "open_timeout": timeout_s,
-        "close_timeout": CLOSE_S,
-        "max_size": None,
-    }
-
-
-@contextmanager
-def _opening(link: Link) -> Iterator[None]:
-    """What goes wrong inside, in words that help."""
-    from websockets.exceptions import InvalidStatus, WebSocketException
-
-    try:
-        yield
-    except InvalidStatus as error:
-        raise _refused(link, error.response.status_code) from None
-    except (OSError, WebSocketException, ValueError) as error:
-        raise _unreached(link, error) from None
-
-
-def _refused(link: Link, status: int) -> MienError:
-    return MienError(
-        f"{link.place}: refuses this client (HTTP status {status}) — every start of 'mien live' has another token: "
-        "give the link that it has printed now"
-    )
-
-
-def _unreached(link: Link, error: Exception) -> MienError:
-    reason = str(error) or type(error).__name__
-    return MienError(f"{link.place}: no live face answers there ({reason}) — start one with 'mien live'")
-
-
-def _gone(link: Link, connection: Any) -> str:
-    """Why a connection is no more."""
-    why = f" ({connection.close_reason})" if connection.close_reason else ""
-    return f"{link.place}: the live face has gone{why} — start it again with 'mien live', then make a new client"

@@ -18,7 +18,7 @@ from fake_live import KINDS, OK, TOKEN, fake_server
 from mien import AsyncClient, Client, MienError
 from mien.live import KINDS as MESSAGES
 from mien.live import Session, check_message
-from mien.live.client import choose_link
+from mien.live.reaching import choose_link
 
 Make = Callable[..., Any]
 
@@ -242,6 +242,10 @@ def test_an_interruption_by_somebody_else_ends_a_stream(connect: Make) -> None:
     ],
 )
 def test_what_breaks_speech_off_lets_go_who_waits(message: Any, breaks: bool) -> None:
+    # The server's own rule is the same.
+    assert (
+        any(check_message(each).ends_speech for each in ([message] if isinstance(message, dict) else message)) == breaks
+    )
     waiting = Flag()
 
     def reply(value: Any) -> list[Any]:

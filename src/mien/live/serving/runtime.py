@@ -68,19 +68,13 @@ def runtime_folders(environment: Mapping[str, str]) -> tuple[Path, ...]:
 
 @contextmanager
 def announce(running: Running, environment: Mapping[str, str] = os.environ) -> Iterator[Path | None]:
-    """The file that says so while the server runs; None where no folder is fit for one, which is no mistake."""
-    folder = next((place for place in runtime_folders(environment) if _make_private(place)), None)
-    if folder is None:
-        yield None
-        return
-    path = folder / f"live-{running.pid}-{running.address.port}.json"
-    with writing(path) as temporary:
-        temporary.chmod(0o600)
-        temporary.write_text(json.dumps({**FORMAT, **asdict(running)}, indent=1) + "\n", encoding="utf-8")
+    """The file that says so while the server runs; None where there can be none: clients need its link then."""
+    path = next((path for folder in runtime_folders(environment) if (path := _write(running, folder))), None)
     try:
         yield path
     finally:
-        path.unlink(missing_ok=True)
+        if path is not None:
+            path.unlink(missing_ok=True)
 
 
 def running_servers(environment: Mapping[str, str] = os.environ) -> tuple[Running, ...]:
@@ -116,12 +110,19 @@ def find_server(environment: Mapping[str, str] = os.environ) -> Running:
     return found[0]
 
 
-def _make_private(folder: Path) -> bool:
+def _write(running: Running, folder: Path) -> Path | None:
+    """The file of a server; None where the folder is not fit for it, or full."""
+    path = folder / f"live-{running.pid}-{running.address.port}.json"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError:
-        return False
-    return _is_private(folder) and os.access(folder, os.W_OK)
+        if not _is_private(folder):
+            return None
+        with writing(path) as temporary:
+            temporary.chmod(0o600)
+            temporary.write_text(json.dumps({**FORMAT, **asdict(running)}, indent=1) + "\n", encoding="utf-8")
+    except (OSError, MienError):
+        return None
+    return path
 
 
 def _is_private(folder: Path) -> bool:

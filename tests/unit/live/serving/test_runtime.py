@@ -73,6 +73,17 @@ def test_where_there_is_no_folder_it_runs_without_a_file(port: int) -> None:
     assert running_servers({}) == ()
 
 
+def test_a_full_disk_does_not_keep_a_server_from_running(
+    environment: dict[str, str], port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path) -> None:
+        raise MienError("the disk is full")
+
+    monkeypatch.setattr("mien.live.serving.runtime.writing", full)
+    with announce(server(port), environment) as path:
+        assert path is None
+
+
 def test_two_servers_are_both_named(environment: dict[str, str], port: int) -> None:
     with ExitStack() as stack:
         other = stack.enter_context(closing(socket.create_server(("127.0.0.1", 0)))).getsockname()[1]
