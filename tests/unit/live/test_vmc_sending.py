@@ -112,14 +112,14 @@ def test_a_head_that_looks_to_its_left_turns_bones_by_negative_angles_about_y():
 
 @given(st.dictionaries(st.sampled_from(["MLV", "MRV", "MB", "ELU", "ERU", "HH", "HV", "PLH"]), st.floats(0, 1)))
 def test_motors_of_a_drawing_go_there_and_back_by_arkit(motors):
-    """Eyes and head are said exactly; of the mouth some is not, since no name of ARKit raises a corner and leaves it
-    where it was sideways, or shuts lips that are apart at rest.
+    """Eyes and head are said exactly, corners of the mouth nearly; what keeps a smile from being wide in ARKit parts
+    the lips, and nothing shuts lips that are apart at rest.
     """
     pose = set_values(motors, face("toon:gus"), face("toon:gus").neutral)
     again = received("toon:gus", VmcEncoder(face("toon:gus"), "arkit").encode(pose, 0.0))
-    limits = {"mouth": 0.3, "eyelid": 0.006, "head": 0.002, "pupil": 0.002}
+    limits = {"mouth.bottom": 0.45, "mouth.corner": 0.08, "eyelid.upper": 0.006}
     for row, difference in zip(pose.table, differences(pose, again), strict=True):
-        assert difference <= limits.get(row.name.split(".")[0], 0.0), row.name
+        assert difference <= limits.get(".".join(row.name.split(".")[:2]), 1e-6), row.name
 
 
 def test_a_talking_face_is_nearly_the_same_on_the_other_side():
