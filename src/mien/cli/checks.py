@@ -160,7 +160,8 @@ def _check_server(server: Running) -> Line:
         text = f"{place}; {told['rate_hz']:g} loops/s, {watching} watching, {len(clients)} connected"
         late = loops["late"] + loops["dropped"]
     except MienError as error:
-        return Line(about, NOTE, f"{place}; {error}", f"if it stays so, end it: kill {server.pid}")
+        reason = str(error).removeprefix(f"{address.place}: ").partition(" — ")[0]
+        return Line(about, NOTE, f"{place}; {reason}", f"if it stays so, end it: kill {server.pid}")
     except (KeyError, TypeError, AttributeError):
         return Line(about, NOTE, f"{place}; is of another version: {server.version}", "end it and start it again")
     if late > loops["run"] / 100:

@@ -86,7 +86,9 @@ def _refused(link: Link, status: int) -> MienError:
 
 def _unreached(link: Link, error: Exception) -> MienError:
     reason = str(error) or type(error).__name__
-    return MienError(f"{link.place}: no live face answers there ({reason}) — start one with 'mien live'")
+    return MienError(
+        f"{link.place}: no live face answers ({reason}) — 'mien live' starts one, 'mien doctor' lists those that run"
+    )
 
 
 def gone(link: Link, connection: Any) -> str:

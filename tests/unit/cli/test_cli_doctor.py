@@ -134,7 +134,7 @@ def test_the_usual_port(environment: dict[str, str], monkeypatch: pytest.MonkeyP
             found = servers(environment)
             assert "is that of a live face" in found["usual port"][1]
             # It takes connections and answers nothing.
-            assert "no live face answers there" in found["head, live"][1]
+            assert "no live face answers (timed out)" in found["head, live"][1]
     assert servers(environment)["usual port"] == (OK, f"{port} is free", "")
     assert DEFAULT_PORT == 8765
 
