@@ -144,6 +144,6 @@ async def read_lines(reader: asyncio.StreamReader) -> AsyncIterator[bytes | None
 
 async def _write(writer: asyncio.StreamWriter, line: bytes) -> None:
     writer.write(line)
-    if writer.transport.get_write_buffer_size():
+    if writer.transport.get_write_buffer_size() or writer.is_closing():
         async with asyncio.timeout(STALLED_S):
             await writer.drain()

@@ -273,6 +273,22 @@ def test_a_hundred_that_connect_and_vanish_leave_nothing_behind():
     run(test)
 
 
+def test_nothing_is_answered_to_who_has_gone(caplog):
+    async def test(place):
+        good = await place.connect()
+        for _ in range(5):
+            gone = await place.connect()
+            gone.send(*[b"STATE"] * 1000)
+            await gone.answer()
+            gone.writer.transport.abort()
+        while len(place.animator.outboxes) > 1:
+            await good.ask(b"RESET")
+        assert place.animator.messages < 5_000
+
+    run(test)
+    assert caplog.records == []
+
+
 def test_ten_thousand_malformed_lines_are_answered_one_by_one():
     chance = random.Random(20)
     pieces = [b"MOVE", b"ELU", b"1e999", b"nan", b"{", b'{"kind":', b"\xff", b"\0", b"LOOK", b"[[[[", b"-1", b" ", b'"']
