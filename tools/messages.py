@@ -57,14 +57,16 @@ Who has subscribed to events hears what happens, with the number of the `loop` a
 | `speech.started` | `text`: the sentence |
 | `speech.word` | `word` and its `number` in the sentence |
 | `speech.ended` | `more`: whether more of the same text follows; `broken_off`: whether it was interrupted |
-| `speech.failed` | `message`: why a sentence cannot be said, or what a mark in it asks for not be done |
+| `speech.failed` | `message`: why something cannot be said, or be done with it; `more`: whether the text goes on |
 
 A `say` with `more` hands over a part of a text, as large or small as it comes, blanks included. Parts with the same
 `id` are joined, and a sentence is said once what follows shows that it is complete, or when no part has come for a
 second; `"more": false` ends the text, and that part may be empty. `[smile]`, `[smile 0.6]` in a text plays the motion
 with the word behind it, `[neutral]` ends motions, `[look left]` is a look of a moment, `<break time="500ms"/>` a
 silence; `*word*` and `<emphasis>` do nothing yet. None of them is spoken. An `interrupt`, a `reset` and a `stop` of
-the speech also drop what is not made yet, parts that wait for more included.
+the speech also drop what is not made yet, parts that wait for more included; a text of which nothing had begun has a
+`speech.ended` without a number then. A sentence that the voice cannot say (a lone emoji) is passed over in a text that
+has others.
 """
 MOTIONS_HEADER = """
 ## Standard motions

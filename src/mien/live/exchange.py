@@ -84,7 +84,7 @@ class Talk(Generic[P]):
         """Take note of an event, of this text or another one."""
         if event.get("id") != self.id:
             return
-        if event["event"] == "speech.failed":
+        if event["event"] == "speech.failed" and not event.get("more"):
             self.finish(MienError(f"the text could not be said: {event.get('message')}"))
         elif event["event"] == "speech.ended" and event.get("broken_off"):
             self.finish(Said(self.id, broken_off=True))

@@ -70,7 +70,7 @@ class Turn:
 
     def failed(self, message: str) -> dict[str, Any]:
         """The event that tells that a mark in it asked for what cannot be done."""
-        return self._event({"event": "speech.failed", "message": message})
+        return self._event({"event": "speech.failed", "message": message, "more": True})
 
     def _event(self, event: Mapping[str, Any]) -> dict[str, Any]:
         known = {} if self.identity is None else {"id": self.identity}

@@ -138,6 +138,7 @@ def test_waits_until_it_has_been_said(connect: Make) -> None:
     def reply(message: Any) -> list[Any]:
         other = [event("ended", "other", broken_off=False, more=False), event("failed", "other", message="no")]
         mine = [event("started", "me"), event("ended", "me", broken_off=False, more=True), event("started", "me")]
+        mine.append(event("failed", "me", message="a sentence is passed over", more=True))
         return [OK, *other, *mine, event("ended", "me", broken_off=message["text"] == "Long.", more=False)]
 
     with fake_server(reply) as server, connect(server.link) as face:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from time import monotonic
 from types import MappingProxyType
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Failure:
-    """Something that cannot be said, why, and whether more of the same text follows."""
+    """Something that cannot be said: why, and whether the text goes on all the same."""
 
     message: str
     id: Identity
@@ -74,11 +74,18 @@ class Worker(Protocol):
 
 @dataclass(eq=False)
 class _Waiting:
-    """A text that waits: what is left of it once it was begun, and whether more follows under the same ``id``."""
+    """A text that waits.
+
+    Attributes:
+        message: that asks for it.
+        marked: the text.
+        said: whether anything of the text has been said already.
+        sentences: what is left of it, once it was begun.
+    """
 
     message: Message
     marked: MarkedText
-    more: bool
+    said: bool = False
     sentences: deque[Sentence] | None = None
 
 
@@ -156,14 +163,14 @@ class Speaker:
                 f"{MOST_CHARACTERS} in {MOST_WAITING} — wait for speech.ended, or interrupt"
             )
         if message["phones"] is not None:
-            self._wait(_Waiting(message, MarkedText(text), message["more"]))
+            self._wait(_Waiting(message, MarkedText(text)))
         elif message["more"]:
-            self._wait_for(message, self._streams.add(identity, text, self._language, self._now()), more=True)
+            self._wait_for(message, self._streams.add(identity, text, self._language, self._now()))
         else:
             whole = self._streams.end(identity) + text if streamed else text
             if not streamed and not whole.strip():
                 raise MienError("say: the text is empty — write what is to be said")
-            self._wait_for(message, whole, more=False)
+            self._wait_for(message, whole, said=streamed)
 
     def cancel(self) -> tuple[Identity, ...]:
         """Deliver nothing any more of what was asked for before; the texts that this leaves without an end."""
@@ -185,17 +192,16 @@ class Speaker:
         for identity, text in self._streams.take_silent(self._now()):
             message = check_message({"kind": "say", "text": text, "id": identity, "more": True})
             try:
-                self._wait_for(message, text, more=True)
+                self._wait_for(message, text)
             except MienError as error:
                 self._deliver(Failure(str(error), identity, more=True))
         self._news.set()
 
-    def _wait_for(self, message: Message, text: str, *, more: bool) -> None:
+    def _wait_for(self, message: Message, text: str, *, said: bool = False) -> None:
         """Let a text wait; of one that ends the end waits, even if there are no words in it."""
         marked = read_marks(text, self._motions)
-        if marked.text.strip() or marked.marks or not more:
-            message = replace(message, fields=MappingProxyType({**message.fields, "text": text}))
-            self._wait(_Waiting(message, marked, more))
+        if marked.text.strip() or marked.marks or not message["more"]:
+            self._wait(_Waiting(_with(message, text=text), marked, said))
 
     def _wait(self, waiting: _Waiting) -> None:
         self._waiting.append(waiting)
@@ -209,22 +215,29 @@ class Speaker:
             cancelled, waiting = self._cancelled, self._waiting[0]
             message, task = self._take(waiting)
             self._making = message
-            try:
-                delivery: Part | Failure = _part(message, await (await self._ready()).make(task))
-            except StoppedError as error:
-                if waiting in self._waiting:
-                    self._waiting.remove(waiting)
-                delivery = Failure(str(error), message.id, waiting.more)
-                await self._dismiss()
-            except MienError as error:
-                delivery = Failure(str(error), message.id, message["more"])
+            delivery = await self._make(waiting, message, task)
             self._making = None
             if cancelled == self._cancelled:
                 if isinstance(delivery, Part):
+                    waiting.said = True
                     self._unsaid_s += float(delivery.utterance.loops / self._setup.rate)
+                elif delivery.more and not message["more"]:
+                    self._waiting.appendleft(_Waiting(_with(message, text=""), MarkedText("")))
                 self._deliver(delivery)
             with suppress(MienError):  # the next text tells
                 await self._ready()
+
+    async def _make(self, waiting: _Waiting, message: Message, task: Task) -> Part | Failure:
+        """What becomes of a sentence. One that the voice cannot say is no end of a text that has others."""
+        try:
+            return _part(message, await (await self._ready()).make(task))
+        except StoppedError as error:
+            if waiting in self._waiting:
+                self._waiting.remove(waiting)
+            await self._dismiss()
+            return Failure(str(error), message.id, waiting.message["more"])
+        except MienError as error:
+            return Failure(str(error), message.id, message["more"] or waiting.said)
 
     def _take(self, waiting: _Waiting) -> tuple[Message, Task]:
         """The next sentence of the first text that waits, and the message that asks for it alone."""
@@ -241,10 +254,8 @@ class Speaker:
             waiting.sentences.extendleft(rest)
         if not waiting.sentences:
             self._waiting.popleft()
-        more = waiting.more or bool(waiting.sentences)
-        return replace(
-            message, fields=MappingProxyType({**message.fields, "text": sentence.text, "more": more})
-        ), sentence
+        more = message["more"] or bool(waiting.sentences)
+        return _with(message, text=sentence.text, more=more), sentence
 
     async def _ready(self) -> Worker:
         """The worker, warm."""
@@ -264,10 +275,10 @@ def _part(message: Message, made: Made) -> Part:
     acts: dict[int, tuple[Message, ...]] = {}
     for loop, act in made.acts:
         acts[loop] = (*acts.get(loop, ()), check_message(act))
-    fields = {**message.fields, "phones": made.phones, "words": made.words}
-    return Part(
-        replace(message, fields=MappingProxyType(fields)),
-        replace(made.utterance, acts=acts),
-        made.samples,
-        made.rate_hz,
-    )
+    said = _with(message, phones=made.phones, words=made.words)
+    return Part(said, replace(made.utterance, acts=acts), made.samples, made.rate_hz)
+
+
+def _with(message: Message, **fields: Any) -> Message:
+    """The message with other fields."""
+    return replace(message, fields=MappingProxyType({**message.fields, **fields}))

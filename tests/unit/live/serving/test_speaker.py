@@ -200,14 +200,22 @@ def test_what_was_cancelled_is_not_delivered_though_it_is_being_made():
     play(scene)
 
 
-def test_what_cannot_be_said_is_told_and_the_rest_is_said():
+def test_a_text_with_nothing_that_can_be_said_fails_and_a_sentence_of_others_is_passed_over():
     async def scene(stage):
         stage.say("☃", id="a")
-        stage.say("One. ☃. Two.", id="b")
-        stage.say("QQ", id="c", phones=[[0, 1, "QQ"]])
+        stage.say("☃. ☃", id="b")
+        stage.say("One. ☃. Two.", id="c")
+        stage.say("One. ☃", id="d")
+        stage.say("Bye. ", id="e", more=True)
+        stage.say("☃", id="e")
+        stage.say("QQ", id="f", phones=[[0, 1, "QQ"]])
         assert await stage.settle() == [
-            ("failed", "a", False), ("One.", "b", True), ("failed", "b", True), ("Two.", "b", False),
-            ("failed", "c", False),
+            ("failed", "a", False),
+            ("failed", "b", True), ("failed", "b", False),
+            ("One.", "c", True), ("failed", "c", True), ("Two.", "c", False),
+            ("One.", "d", True), ("failed", "d", True), ("", "d", False),
+            ("Bye.", "e", True), ("failed", "e", True), ("", "e", False),
+            ("failed", "f", False),
         ]  # fmt: skip
 
     play(scene)
