@@ -71,7 +71,8 @@ has others.
 MOTIONS_HEADER = """
 ## Standard motions
 
-For every face; a file of one's own has the form of `src/mien/live/data/motions.json`.
+For every face, with pictures in [motions.md](motions.md); a file of one's own has the form of
+`src/mien/live/data/motions.json`.
 
 | motion | what is seen | seconds |
 |---|---|---|
