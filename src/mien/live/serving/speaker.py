@@ -275,7 +275,7 @@ def _part(message: Message, made: Made) -> Part:
     acts: dict[int, tuple[Message, ...]] = {}
     for loop, act in made.acts:
         acts[loop] = (*acts.get(loop, ()), check_message(act))
-    said = _with(message, phones=made.phones, words=made.words)
+    said = _with(message, phones=made.phones, words=made.words) if made.phones else message
     return Part(said, replace(made.utterance, acts=acts), made.samples, made.rate_hz)
 
 

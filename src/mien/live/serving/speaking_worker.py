@@ -61,17 +61,17 @@ class Made:
     """What became of a task.
 
     Attributes:
-        phones: start and end, seconds, and symbol.
-        words: likewise.
         utterance: what the face does, without its acts.
+        phones: start and end, seconds, and symbol; empty where somebody knows them already.
+        words: likewise.
         acts: loop and JSON of the messages that marks stand for.
         samples: (N,) int16; None where somebody else has the sound.
         rate_hz: samples a second.
     """
 
-    phones: Cues
-    words: Cues
     utterance: Utterance
+    phones: Cues = ()
+    words: Cues = ()
     acts: tuple[tuple[int, Json], ...] = ()
     samples: NDArray[np.int16] | None = None
     rate_hz: int = 0
@@ -84,13 +84,13 @@ def make(task: Task, voice: Voice, setup: Setup) -> Made:
         MienError: the voice cannot say it, or a phone is none.
     """
     if isinstance(task, Cued):
-        return Made(task.phones, task.words, _utterance(task.text, task.phones, task.words, setup))
+        return Made(_utterance(task.text, task.phones, task.words, setup))
     if not task.text:
         length_s = max(SILENT_S, sum(task.marked.pauses.values()))
         phones: Cues = ((0.0, length_s, SILENCE),)
         utterance = _utterance("", phones, (), setup)
         acts = time_acts(follow_marks(task.marked, (), length_s))
-        return Made(phones, (), utterance, _place(acts, utterance, setup))
+        return Made(utterance, phones, (), _place(acts, utterance, setup))
     speech = speak(task.text + "," * task.goes_on, voice, pauses=task.marked.pauses, lead_s=LEAD_S, tail_s=task.tail_s)
     phones, words = (
         tuple((cue.start_s, cue.end_s, cue.symbol) for cue in cues) for cues in (speech.phones, speech.words)
@@ -98,7 +98,7 @@ def make(task: Task, voice: Voice, setup: Setup) -> Made:
     utterance = _utterance(task.text, phones, words, setup)
     acts = time_acts(follow_marks(task.marked, speech.words, speech.sound.length_s))
     samples = np.array(speech.sound.samples)
-    return Made(phones, words, utterance, _place(acts, utterance, setup), samples, speech.sound.rate_hz)
+    return Made(utterance, phones, words, _place(acts, utterance, setup), samples, speech.sound.rate_hz)
 
 
 def _utterance(text: str, phones: Cues, words: Cues, setup: Setup) -> Utterance:
