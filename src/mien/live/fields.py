@@ -88,13 +88,17 @@ def read_number(place: str, value: object, low: float, high: float, unit: str = 
         MienError: it is no number.
         RangeError: it is not finite or out of range.
     """
-    wanted = f"it goes from {low:g} to {high:g}" + (f" {unit}" if unit else "")
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise MienError(f"{place}: want a number, got {show(value)} — {wanted}")
-    if not low <= value <= high:  # of a NaN too
+    # Words only where something is wrong: thousands of numbers come each second.
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if low <= value <= high:
+            return float(value)
         state = "is out of range" if not isinstance(value, float) or math.isfinite(value) else "is not a finite number"
-        raise RangeError(f"{place}: {show(value)} {state} — {wanted}")
-    return float(value)
+        raise RangeError(f"{place}: {show(value)} {state} — {_say_range(low, high, unit)}")
+    raise MienError(f"{place}: want a number, got {show(value)} — {_say_range(low, high, unit)}")
+
+
+def _say_range(low: float, high: float, unit: str) -> str:
+    return f"it goes from {low:g} to {high:g}" + (f" {unit}" if unit else "")
 
 
 def read_text(place: str, value: object, shortest: float, longest: float) -> str:
