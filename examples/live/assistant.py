@@ -13,7 +13,7 @@ import mien
 
 def think(question: str) -> Iterator[str]:
     """An answer word by word, as a language model gives it: put yours here."""
-    answer = f"You said: {question}. That is a good question. Let me think about it. [nod] It has many sides."
+    answer = f"You said: {question}. [think] Let me see. [nod] Yes."
     for word in answer.split(" "):
         time.sleep(0.05)
         yield word + " "

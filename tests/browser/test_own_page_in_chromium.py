@@ -47,7 +47,7 @@ def page():
 
 
 def test_a_page_moves_a_face_from_an_origin_that_is_allowed(tmp_path, port, page):
-    with live_process(tmp_path, "--face", "toon:olav", "--allow", f"http://127.0.0.1:{port}") as live:
+    with live_process(tmp_path, "--no-voice", "--face", "toon:olav", "--allow", f"http://127.0.0.1:{port}") as live:
         answer = page.locator("#answer")
         for host, words in (("127.0.0.1", "connected"), ("localhost", re.compile("no connection"))):
             page.goto(f"http://{host}:{port}/browser.html")

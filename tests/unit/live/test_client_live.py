@@ -109,5 +109,5 @@ def test_a_server_that_ends_says_so(tmp_path: Any) -> None:
         async for _ in face.events():
             pass
 
-    with live_process(tmp_path, "--face", "toon:olav") as running:
+    with live_process(tmp_path, "--no-voice", "--face", "toon:olav") as running:
         assert "the live face has gone" in asyncio.run(talk(running.link))

@@ -91,7 +91,7 @@ def test_an_assistant_falls_silent_when_it_is_interrupted(server: LiveProcess) -
 def test_an_experiment_can_be_replayed_to_the_loop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     with live_process(
-        tmp_path, "--face", "toon:olav", "--rate", "100", "--idle", STILL, "--log", "trial.log"
+        tmp_path, "--no-voice", "--face", "toon:olav", "--rate", "100", "--idle", STILL, "--log", "trial.log"
     ) as running:
         trials = list(csv.DictReader(run(running, "experiment.py", "2", "0.3")))
     assert [trial["trial"] for trial in trials] == ["1", "2"]
