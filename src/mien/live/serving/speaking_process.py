@@ -15,17 +15,25 @@ from .speaking_worker import LENGTH, Made, Ready, Refused, Setup, Task
 
 PROGRAM = "from mien.live.serving.speaking_worker import main; main()"
 
+LONGEST_S = 60.0
+"""A task that takes longer will not end: the largest take a few seconds."""
+
 
 class StoppedError(MienError):
-    """The process ended by itself."""
+    """The process ended by itself, or has to be ended."""
 
 
 class SpeakingProcess:
-    """A worker that is asked one thing at a time; made by ``start_process``."""
+    """A worker that is asked one thing at a time; made by ``start_process``.
+
+    Attributes:
+        language: of its voice.
+        longest_s: how long a task may take, seconds.
+    """
 
     def __init__(self, process: Process) -> None:
         self._process = process
-        self.language = ""
+        self.language, self.longest_s = "", LONGEST_S
 
     @property
     def pid(self) -> int:
@@ -48,9 +56,13 @@ class SpeakingProcess:
 
         Raises:
             MienError: it cannot be made.
-            StoppedError: the process ended by itself.
+            StoppedError: the process ended by itself, or does not answer; it can only be closed then.
         """
-        answer = await self._ask(task)
+        try:
+            async with asyncio.timeout(self.longest_s):
+                answer = await self._ask(task)
+        except TimeoutError:
+            raise StoppedError(f"nothing has been made within {self.longest_s:g} s — say it in smaller parts") from None
         if not isinstance(answer, Made):
             raise StoppedError("the process that speaks answered something else")
         return answer
