@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
+from types import MappingProxyType
 
 import numpy as np
 
@@ -18,7 +19,10 @@ from .mixing import CHANNELS
 from .slices import Floats, Motors, Way, count_slices
 
 STRETCH_S = 30.0
-"""Made at once. Each stretch begins and ends at rest, so that the next can follow; our choice."""
+"""Each stretch begins and ends at rest, so that the next can follow; our choice."""
+
+Piece = tuple[int, int, Floats]
+"""What a part does with a channel in a stretch: the number of each, and (loops,) values."""
 
 EASE_S = 0.3
 """A part comes and goes in this time when it is switched."""
@@ -27,7 +31,8 @@ EASE_S = 0.3
 class Idle:
     """The idle life of one face at a rate of loops; the same seed lives the same life.
 
-    Only the stretch that is being played is kept.
+    The stretch that is being played is kept, and the next is made meanwhile: one piece a loop, so that no loop takes
+    long.
     """
 
     def __init__(self, seed: int, rate: Fraction, amounts: Mapping[str, float]) -> None:
@@ -37,7 +42,9 @@ class Idle:
         self.amounts = Motors(self.usual)
         self._loop = 0
         self._loops = max(1, int(STRETCH_S * rate))
-        self._stretch = np.empty((0, 0))
+        self._stretch: list[Piece] = []
+        self._next = [*self._make(0)]
+        self._making: Iterator[Piece] = iter(())
 
     def switch(self, amounts: Mapping[str, float]) -> None:
         """Change how much there is of some parts."""
@@ -58,30 +65,36 @@ class Idle:
         """(C,) what the channels do in the next loop."""
         number, place = divmod(self._loop, self._loops)
         if place == 0:
-            self._stretch = self._make(number)
+            # Where loops are long a stretch has fewer of them than pieces.
+            self._stretch, self._next = [*self._next, *self._making], []
+            self._making = self._make(number + 1)
+        else:
+            self._next += [piece for piece in (next(self._making, None),) if piece is not None]
         self._loop += 1
         self.amounts.step()
-        parts = self._stretch[:, place].reshape(len(IDLE_PARTS), -1)
-        values = np.zeros(parts.shape[1])
-        for part, amount in zip(parts, self.amounts.values.tolist(), strict=True):
-            values += amount * part
+        amounts = self.amounts.values.tolist()
+        values = np.zeros(len(vocabulary(CHANNELS)))
+        for part, channel, track in self._stretch:
+            values[channel] += amounts[part] * track[place]
         return values
 
-    def _make(self, number: int) -> Floats:
-        """(parts x C, loops) values of a stretch."""
-        channels = vocabulary(CHANNELS)
+    def _make(self, number: int) -> Iterator[Piece]:
+        """The pieces of a stretch, each made when it is asked for."""
+        index = vocabulary(CHANNELS).index
         length_s = time_of(float(self._loops), self.rate)
         times = time_of(np.arange(self._loops, dtype=np.float64), self.rate)
         # Seeds of stretches are far apart, so that faces with neighbouring seeds do not live the same minutes.
         seed = (self.seed * 1_000_003 + number) % 2**64
-        lives: dict[str, Mapping[str, Track]] = {
-            "blinks": blinks(length_s, seed),
-            "saccades": saccades(length_s, seed),
-            "breathing": {"head_nod": breathing(length_s, seed)},
-            "sway": head_sway(length_s, seed),
-        }
-        made = np.zeros((len(IDLE_PARTS), len(channels), self._loops))
         for part, name in enumerate(IDLE_PARTS):
-            for channel, track in lives[name].items():
-                made[part, channels.index[channel]] = track.evaluate(times)[0]
-        return made.reshape(-1, self._loops)
+            for channel, track in _LIVES[name](length_s, seed).items():
+                yield part, index[channel], track.evaluate(times)[0]
+
+
+_LIVES: Mapping[str, Callable[[float, int], Mapping[str, Track]]] = MappingProxyType(
+    {
+        "blinks": blinks,
+        "saccades": saccades,
+        "breathing": lambda length_s, seed: {"head_nod": breathing(length_s, seed)},
+        "sway": head_sway,
+    }
+)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from mien.core import LoadError, MienError
 from mien.live import IDLE_PARTS, KINDS, Session, read_log, replay, standard_motions
 from mien.live.idle import Idle
+from mien.timeline import Track
 from mien.vocab import vocabulary
 from sessions import FACES, SAY, STILL, digest, ok, run, still
 from support import face
@@ -274,6 +275,25 @@ def test_each_part_of_idle_life_can_be_switched():
     assert len({frame.pose for frame in run(session, 600)}) == 1
 
 
+def test_no_loop_makes_more_than_one_piece_of_what_comes_next(monkeypatch):
+    made, plain = [], Track.evaluate
+    monkeypatch.setattr(Track, "evaluate", lambda *given: made.append(0) or plain(*given))
+    idle, counts = Idle(1, Fraction(60), {}), []
+    pieces = len(made)
+    for _ in range(4000):
+        made.clear()
+        idle.step()
+        counts.append(len(made))
+    assert max(counts) == 1
+    assert sum(counts) == 3 * pieces
+
+
+def test_a_stretch_of_few_long_loops_is_whole():
+    slow, fast = Idle(1, Fraction(1, 10), {}), Idle(1, Fraction(1), {})
+    every = [fast.step() for _ in range(60)]
+    np.testing.assert_allclose([slow.step() for _ in range(6)], every[::10], atol=1e-12)
+
+
 def test_an_hour_blinks_at_the_published_rate_and_keeps_no_more_than_a_stretch():
     """Source of the rate: ``mien.gaze.blinks``, 17 a minute."""
     idle, shut, before, sizes = Idle(1, Fraction(25), {}), 0, 0.0, set()
@@ -283,7 +303,7 @@ def test_an_hour_blinks_at_the_published_rate_and_keeps_no_more_than_a_stretch()
         shut += now > 0.5 >= before
         before = now
         if loop % 9000 == 8999:
-            sizes.add(idle._stretch.size)
+            sizes.add(sum(track.size for _, _, track in (*idle._stretch, *idle._next)))
     assert len(sizes) == 1
     assert 14 * 60 < shut < 20 * 60
 
