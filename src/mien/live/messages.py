@@ -152,7 +152,11 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                     Field("names", "names", "Of the layer `direct` these parameters or motor codes only."),
                 ),
             ),
-            Kind("interrupt", "Falls silent: the mouth is shut within 100 ms, what was still to be said is dropped."),
+            Kind(
+                "interrupt",
+                "Falls silent: the mouth is at rest within 100 ms, whatever moved or held it, and what was still to be "
+                "said is dropped. Who goes on moving it, as a live voice does, opens it again.",
+            ),
             Kind("reset", "Lets go of everything, in all layers.", (_over(300, "How long it takes."),)),
             Kind(
                 "state",

@@ -96,9 +96,10 @@ class Names:
             self._given.pop(code, None)
         return tuple(rows)
 
-    def forget(self) -> None:
-        """Let no code count any more."""
-        self._given.clear()
+    def forget(self, rows: Iterable[int]) -> None:
+        """Let no code count any more that moves one of some rows."""
+        gone = set(rows)
+        self._given = {code: value for code, value in self._given.items() if gone.isdisjoint(self._rows[code])}
 
     def _check_reach(self, code: str, value: float, row: int, gain: float) -> float:
         """What the row that plays a code alone is set to; the code goes as far as that row."""

@@ -288,10 +288,7 @@ class Session:
         if message["names"] is not None:
             if message["layer"] != "direct":
                 raise MienError("stop: 'names' are for the layer 'direct'")
-            rows = self._names.release(message["names"])
-            for row in rows:
-                self._direct.move(row)
-            self._rest(self._held, rows, slices)
+            self._let_go(self._names.release(message["names"]), slices)
             return {}
         for layer in ("gaze", "expression", "speech", "direct") if message["layer"] is None else (message["layer"],):
             _STOPS[layer](self, slices)
@@ -306,8 +303,11 @@ class Session:
 
     def _interrupt(self, message: Message) -> dict[str, Any]:
         slices = max(1, int(SILENT_S / self.loop_s + 1e-6))
+        mouth = np.flatnonzero(self._mixer.mouth).tolist()
         self._stop_speech(slices)
-        self._rest(self._expression, np.flatnonzero(self._mixer.mouth).tolist(), slices)
+        self._rest(self._expression, mouth, slices)
+        self._names.forget(mouth)
+        self._let_go(mouth, slices)
         return {}
 
     def _state(self, message: Message) -> dict[str, Any]:
@@ -338,9 +338,15 @@ class Session:
         self._rest(self._speech, range(len(self._speech.values)), slices)
 
     def _stop_direct(self, slices: int) -> None:
-        self._names.forget()
+        self._names.forget(range(len(self._held.values)))
         self._direct.halt()
         self._rest(self._held, range(len(self._held.values)), slices)
+
+    def _let_go(self, rows: Iterable[int], slices: int) -> None:
+        """Hold rows no longer in the layer ``direct``; they stay where they are while the others take over."""
+        for row in rows:
+            self._direct.move(row)
+        self._rest(self._held, rows, slices)
 
     def _rest(self, motors: Motors, rows: Iterable[int], slices: int) -> None:
         """Let motors go back to 0; those that are there already have nothing pending any more."""

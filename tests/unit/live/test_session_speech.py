@@ -119,6 +119,34 @@ def test_an_interruption_shuts_the_mouth_within_100_ms(name, loop_s):
     assert set(moved) == {rest}
 
 
+MOVED = {
+    "direct": {"kind": "move", "values": {"MB": 0.9}, "over_ms": 3000},
+    "expression": {"kind": "move", "values": {"MB": 0.9}, "layer": "expression"},
+    "a live voice": {"kind": "move", "values": {"jaw": 0.9}, "layer": "speech"},
+    "a motion": {"kind": "play", "motion": "yawn", "hold": True},
+}
+
+
+@pytest.mark.parametrize("saying", [False, True])
+@pytest.mark.parametrize("moved", MOVED)
+@pytest.mark.parametrize("name", FACES)
+def test_an_interruption_shuts_a_mouth_whoever_holds_it(name, moved, saying):
+    session, table = still(name), face(name).parameters
+    ok(session, kind="move", values={"ELU": 0.3})
+    ok(session, **MOVED[moved])
+    if saying:
+        ok(session, **SAY)
+    assert run(session, 40)[-1].pose[WIDE[name]] != table[WIDE[name]].default
+    ok(session, kind="interrupt")
+    run(session, 6)
+    mouth = session._mixer.mouth
+    np.testing.assert_array_equal(session.values[mouth], table.defaults[mouth])
+    np.testing.assert_array_equal(run(session, 300)[-1].pose.values[mouth], table.defaults[mouth])
+    assert ok(session, kind="state", names=["ELU"])["values"]["ELU"] == pytest.approx(0.3)
+    ok(session, kind="move", values={"MB": 0.5})
+    assert run(session, 1)[-1].pose[WIDE[name]] != table[WIDE[name]].default
+
+
 def test_what_has_ended_is_not_broken_off_as_well():
     session = still()
     frames = run(session, ok(session, **SAY)["loops"])
