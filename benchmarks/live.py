@@ -80,7 +80,8 @@ class Server:
             answer.read()
 
     def socket(self) -> connect:
-        return connect(f"ws://127.0.0.1:{self.port}/live", additional_headers=self.headers, compression=None)
+        address = f"ws://127.0.0.1:{self.port}/live"
+        return connect(address, additional_headers=self.headers, compression=None, max_size=None)
 
     @property
     def cpu_s(self) -> float:
