@@ -23,7 +23,7 @@ from mien.live.link import DEFAULT_PORT
 from .about import describe
 from .animator import Animator
 from .guard import Guard
-from .sockets import MOST_BYTES, make_app
+from .http import MOST_BYTES, make_app
 from .tcp import serve_tcp
 from .udp import OscPort, serve_udp
 
