@@ -123,8 +123,8 @@ def _band_weights(rate_hz: int, length: int) -> Floats:
 
     Source: O'Shaughnessy 1987, Speech Communication, p. 150: mel = 2595 log10(1 + f / 700).
     """
-    ends = 2595.0 * np.log10(1.0 + np.array([LOW_HZ, HIGH_HZ]) / 700.0)
-    edges = 700.0 * (10.0 ** (np.linspace(*ends, BANDS + 2) / 2595.0) - 1.0)
+    low, high = (2595.0 * np.log10(1.0 + np.array([LOW_HZ, HIGH_HZ]) / 700.0)).tolist()
+    edges = 700.0 * (10.0 ** (np.linspace(low, high, BANDS + 2) / 2595.0) - 1.0)
     bins = np.fft.rfftfreq(length, 1.0 / rate_hz)[:, None]
     rising = (bins - edges[:-2]) / (edges[1:-1] - edges[:-2])
     falling = (edges[2:] - bins) / (edges[2:] - edges[1:-1])

@@ -35,6 +35,7 @@ def describe(animator: Animator) -> dict[str, Any]:
         },
         "messages": animator.messages,
         "clients": clients,
+        "microphone": animator.microphone.describe(),
         "motions": sorted(session.motions),
     }
 

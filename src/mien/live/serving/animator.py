@@ -23,6 +23,7 @@ from mien.live.messages import Message, check_message, parse_batch, refusal
 from mien.live.session import Frame, Session
 from mien.live.wire import Pcm, check_rate, sound_message
 
+from .microphone import Microphone
 from .outbox import Outbox
 from .speaker import Failure, Part
 
@@ -80,6 +81,8 @@ class Animator:
         self.report = Report()
         self.speaker: Speaks | None = None
         """Says texts; without one only those with phones are said."""
+        self.microphone = Microphone(session.loop_s)
+        """Hears live voices."""
         self.outboxes: list[Outbox] = []
         self.messages = 0
         self.delays_s: deque[float] = deque(maxlen=MOST_DELAYS)
@@ -172,7 +175,12 @@ class Animator:
 
     def hear(self, sound: Pcm) -> dict[str, Any]:
         """Move the mouth with a live voice."""
-        raise MienError("this face does not listen")
+        self._obey(self.microphone.hear(sound.samples, sound.rate_hz))
+        return {}
+
+    def _obey(self, move: Message | None) -> None:
+        if move is not None:
+            self.session.handle(move)
 
     async def run(self) -> None:
         """Run loops at their deadlines, until cancelled."""
@@ -194,6 +202,7 @@ class Animator:
     def _step(self) -> Frame:
         if self.speaker is not None:
             self.speaker.tick(self.session.unsaid_s)
+        self._obey(self.microphone.tick(self.session.loop))
         frame = self.session.step()
         for event in frame.events:
             self._tell({**event, "loop": frame.loop})

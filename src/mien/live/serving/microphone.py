@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mien.core import MienError
 from mien.live.messages import Message
+from mien.live.wire import check_rate
 from mien.speech.listening import DELAY_S, Heard, Listener
 from mien.speech.listening_sound import HOP_S
 from mien.speech.mouth import MOUTH_CHANNELS
@@ -18,6 +19,9 @@ from mien.speech.mouth_table import HELD
 
 MOST_AHEAD_S = 1.0
 """Sound that may come before its time; what comes on top of it is dropped, and so no sender keeps us busy, seconds."""
+
+NEW_RATE_S = 0.05
+"""What another rate counts as, seconds of sound: it takes as long as listening to so much."""
 
 LONGEST_S = 0.2
 """Only so much of the end of a block is listened to, seconds: the mouth of what was before is of no use any more."""
@@ -78,14 +82,16 @@ class Microphone:
         """
         if samples.ndim != 1 or samples.dtype != np.int16:
             raise MienError(f"speech.pcm: want (N,) int16, got {samples.shape} {samples.dtype}")
-        if self._listener is None or self._listener.rate_hz != rate_hz:
-            self._listener = Listener(rate_hz)
-        length_s = len(samples) / rate_hz
-        if self._ahead_s + length_s > MOST_AHEAD_S:
+        length_s = len(samples) / check_rate(rate_hz)
+        known = self._listener is not None and self._listener.rate_hz == rate_hz
+        needs_s = length_s if known else length_s + NEW_RATE_S
+        if self._ahead_s + needs_s > MOST_AHEAD_S:
             self.dropped_s += length_s
             return None
+        if self._listener is None or not known:
+            self._listener = Listener(rate_hz)
         kept = samples[-math.ceil(LONGEST_S * rate_hz) :]
-        self._ahead_s += length_s
+        self._ahead_s += needs_s
         self._last = self._loop
         self.heard_s += len(kept) / rate_hz
         self.dropped_s += (len(samples) - len(kept)) / rate_hz
