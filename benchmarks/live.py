@@ -1,9 +1,10 @@
-"""A live face on sockets of this machine: ``python benchmarks/live.py [--seconds 60] [--minutes 0] [--face head]``.
+"""A live face on sockets of this machine: ``python benchmarks/live.py [PART …] [--seconds 60] [--face head]``.
 
 Loops: their rate and how late they begin. Paths: from a command to the picture that shows it, for each way in.
-Commands: how many a second, in batches of a hundred, answered in order. Viewers: what twenty of them cost. Then the
-first two with both cores busy. ``--minutes 30`` watches memory so long, with two viewers, commands and clients that
-come and go. The face runs in a process of its own, as ``mien live`` starts it; viewers acknowledge every picture.
+Commands: how many a second, in batches of a hundred, answered in order. Viewers: what twenty of them cost. Busy: the
+first two while something else has all cores. Memory, only if it is named: ``--minutes 30``, with two viewers, commands
+and clients that come and go. The face runs in a process of its own, as ``mien live`` starts it; viewers acknowledge
+every picture.
 """
 
 from __future__ import annotations
@@ -317,34 +318,58 @@ def busy_cores(seconds: float) -> Iterator[None]:
             process.wait()
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=60.0, help="of loops, and half of it for viewers")
-    parser.add_argument("--minutes", type=float, default=0.0, help="of watching memory")
-    parser.add_argument("--face", default="head")
-    options = parser.parse_args()
+def loops(options: argparse.Namespace) -> None:
     print(f"loops of {options.face}, alive, nobody connected")
     with serve(options.face) as server:
         measure_loops(server, options.seconds)
+
+
+def paths(options: argparse.Namespace) -> None:
+    print("from a command to its picture in a viewer")
     with serve(options.face, idle=STILL) as server:
-        print("from a command to its picture in a viewer")
         asyncio.run(measure_paths(server, TRIALS))
-        print("motor commands")
+
+
+def commands(options: argparse.Namespace) -> None:
+    print("motor commands")
+    with serve(options.face, idle=STILL) as server:
         asyncio.run(measure_commands(server, min(10.0, options.seconds)))
+
+
+def viewers(options: argparse.Namespace) -> None:
+    print("viewers")
     with serve(options.face) as server:
-        print("viewers")
         for count in (1, VIEWERS):
             asyncio.run(view_together(server, count, options.seconds / 2))
+
+
+def busy(options: argparse.Namespace) -> None:
     print("with all cores busy")
     with serve(options.face) as server, busy_cores(3 * options.seconds):
         time.sleep(1.0)
         measure_loops(server, options.seconds / 3)
     with serve(options.face, idle=STILL) as server, busy_cores(6 * options.seconds):
         asyncio.run(measure_paths(server, TRIALS // 3))
-    if options.minutes:
-        print(f"memory, {options.minutes:g} minutes")
-        with serve(options.face) as server:
-            asyncio.run(measure_memory(server, options.minutes))
+
+
+def memory(options: argparse.Namespace) -> None:
+    print(f"memory, {options.minutes:g} minutes")
+    with serve(options.face) as server:
+        asyncio.run(measure_memory(server, options.minutes))
+
+
+PARTS = {part.__name__: part for part in (loops, paths, commands, viewers, busy, memory)}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", nargs="*", choices=[[], *PARTS], help="what to measure; all but memory unless said")
+    parser.add_argument("--seconds", type=float, default=60.0, help="of loops, and half of it for viewers")
+    parser.add_argument("--minutes", type=float, default=30.0, help="of watching memory")
+    parser.add_argument("--face", default="head")
+    options = parser.parse_args()
+    for name in options.parts or [name for name in PARTS if name != "memory"]:
+        PARTS[name](options)
 
 
 if __name__ == "__main__":
