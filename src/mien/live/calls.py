@@ -149,14 +149,23 @@ class Calls(ABC, Generic[T, L]):
         return self._ask({"kind": "play", "motion": motion, "strength": strength, "speed": speed, "hold": hold})
 
     def look(self, at: Sequence[float] | str, *, head: float = 1) -> T:
-        """Look at a point or in a direction: eyes first, the head follows.
+        """Look at a point, in a direction or at a target: eyes first, the head follows.
 
         Args:
             at: x, y, z in metres from the middle of the head (its own left, up, forward), or left, right, up, down,
-                viewer, away.
+                viewer, away, or the name of a target.
             head: how much of what is usual the head does, 0 to 1.
         """
         return self._ask({"kind": "look", "at": at if isinstance(at, str) else list(at), "head": head})
+
+    def target(self, name: str, at: Sequence[float]) -> T:
+        """Tell where something is that can be looked at by its name; eyes that look at it follow it.
+
+        Args:
+            name: what it is called.
+            at: x, y, z in metres from the middle of the head.
+        """
+        return self._ask({"kind": "target", "name": name, "at": list(at)})
 
     def stop(self, layer: str | None = None, *, over_ms: float = 300) -> T:
         """Stop a layer (direct, expression, gaze, speech, idle), or all but idle; it goes back to rest.

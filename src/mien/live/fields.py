@@ -174,14 +174,13 @@ def _names(field: Field, value: object) -> tuple[str, ...]:
     )
 
 
-def _point(field: Field, value: object) -> str | tuple[float, float, float]:
-    if isinstance(value, str):
-        return _choice(field, value)
+def _place(field: Field, value: object) -> str | tuple[float, float, float]:
+    return read_text(field.name, value, 1, LONGEST_NAME) if isinstance(value, str) else _point(field, value)
+
+
+def _point(field: Field, value: object) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3:
-        raise MienError(
-            f"{field.name}: want [x, y, z] in metres or a direction, got {show(value)} — "
-            f"directions are {', '.join(field.choices)}"
-        )
+        raise MienError(f"{field.name}: want {TYPES[field.type].doc}, got {show(value)}")
     x, y, z = (
         read_number(f"{field.name}: {axis}", value[i], field.low, field.high, "m") for i, axis in enumerate("xyz")
     )
@@ -226,8 +225,7 @@ def _values_schema(field: Field) -> dict[str, Any]:
 
 
 def _point_schema(field: Field) -> dict[str, Any]:
-    point = {"type": "array", "items": _number_schema(field), "minItems": 3, "maxItems": 3}
-    return {"anyOf": [{"enum": list(field.choices)}, point]}
+    return {"type": "array", "items": _number_schema(field), "minItems": 3, "maxItems": 3}
 
 
 def _cues_schema(field: Field) -> dict[str, Any]:
@@ -248,7 +246,8 @@ TYPES: Mapping[str, Type] = MappingProxyType(
         "flag": Type("true or false", _flag, lambda field: {"type": "boolean"}),
         "values": Type("an object of names and numbers", _values, _values_schema),
         "names": Type("a list of names", _names, _names_schema),
-        "point": Type("[x, y, z] in metres, or a direction", _point, _point_schema),
+        "point": Type("[x, y, z] in metres", _point, _point_schema),
+        "place": Type("[x, y, z] in metres, or a name", _place, lambda field: {"anyOf": [NAME, _point_schema(field)]}),
         "cues": Type("a list of [start_s, end_s, symbol]", _cues, _cues_schema),
     }
 )

@@ -74,8 +74,15 @@ def _look(rest: str) -> Fields:
     if len(words) == 3:
         return {"at": [_number(word) for word in words]}
     if len(words) != 1:
-        raise MienError(f"LOOK {show(rest)}: want X Y Z in metres or a direction, as in LOOK 0.1 0 0.5")
+        raise MienError(f"LOOK {show(rest)}: want X Y Z in metres, a direction or a target, as in LOOK 0.1 0 0.5")
     return {"at": words[0]}
+
+
+def _target(rest: str) -> Fields:
+    words = rest.split()
+    if len(words) != 4:
+        raise MienError(f"TARGET {show(rest)}: want NAME X Y Z in metres, as in TARGET cup 0.1 0 0.5")
+    return {"name": words[0], "at": [_number(word) for word in words[1:]]}
 
 
 def _stop(rest: str) -> Fields:
@@ -109,6 +116,7 @@ FORMS: Mapping[str, Callable[[str], Fields]] = MappingProxyType(
         "play": _play,
         "say": lambda rest: {"text": rest},
         "look": _look,
+        "target": _target,
         "stop": _stop,
         "interrupt": _alone,
         "reset": _alone,

@@ -27,6 +27,8 @@ MOST_MESSAGES = 100
 LONGEST_MS = 600_000.0
 LONGEST_TEXT = 10_000
 MOST_PHONES = 10_000
+REACH_M = (-1000.0, 1000.0)
+"""How far something can be that is looked at, along each axis."""
 LONGEST_PCM = 400_000
 """Characters: more than a second at the highest rate."""
 
@@ -136,11 +138,28 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             ),
             Kind(
                 "look",
-                "Looks at a point, x to the face's own left, y up, z forward from the middle of the head, or in a "
-                "direction: eyes first, the head follows. `viewer` is where a face looks by itself.",
+                "Looks at a point, x to the face's own left, y up, z forward from the middle of the head, in a "
+                "direction, or at a target: eyes first, the head follows. `viewer` is where a face looks by itself.",
                 (
-                    Field("at", "point", "Where.", -1000, 1000, "m", required=True, choices=tuple(look_directions())),
+                    Field(
+                        "at",
+                        "place",
+                        f"Where: a point, one of {', '.join(f'`{name}`' for name in look_directions())}, or the name "
+                        "of a target.",
+                        *REACH_M,
+                        "m",
+                        required=True,
+                    ),
                     Field("head", "number", "How much of what is usual the head does.", 0, 1, default=1),
+                ),
+            ),
+            Kind(
+                "target",
+                "Tells where something is that can be looked at by its name. Eyes that look at it follow it at once, "
+                "the head more slowly. A session knows its targets until it ends.",
+                (
+                    Field("name", "text", "What it is called; not as a direction is.", 1, LONGEST_NAME, required=True),
+                    Field("at", "point", "Where it is now, from the middle of the head.", *REACH_M, "m", required=True),
                 ),
             ),
             Kind(

@@ -104,6 +104,10 @@ def _look(name: str, x: Argument, y: Argument = None, z: Argument = None, /) -> 
     return {"at": x if isinstance(x, str) else [x, y, z]}
 
 
+def _target(name: str, target: Argument, x: Argument, y: Argument, z: Argument, /) -> dict[str, Any]:
+    return {"name": target, "at": [x, y, z]}
+
+
 def _stop(name: str, layer: Argument = None, /) -> dict[str, Any]:
     return {"layer": layer}
 
@@ -122,6 +126,7 @@ CALLS: Mapping[str, Callable[..., dict[str, Any]]] = MappingProxyType(
         "play": _play,
         "say": lambda name, text, /: {"text": text},
         "look": _look,
+        "target": _target,
         "stop": _stop,
         "interrupt": lambda name, /: {},
         "reset": lambda name, over_ms=300, /: {"over_ms": over_ms},
@@ -136,7 +141,8 @@ WANTED: Mapping[str, str] = MappingProxyType(
         "move": "a value and perhaps milliseconds",
         "play": "a motion and perhaps how much of it",
         "say": "a text",
-        "look": "x, y, z or a direction",
+        "look": "x, y, z, a direction or a target",
+        "target": "a name, x, y, z",
         "stop": "a layer or nothing",
         "interrupt": "nothing",
         "reset": "milliseconds or nothing",

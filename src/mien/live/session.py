@@ -18,7 +18,7 @@ from mien.vocab import vocabulary
 from .fields import read_number
 from .idle import Idle
 from .logs import LOOP_S, Header, command_line, end_line
-from .looking import look_ways
+from .looking import Looks
 from .messages import IDLE_PARTS, KINDS, Message, check_message, refusal
 from .mixing import CHANNELS, Mixer, Moment
 from .motions import FaceMotion, Motion, fit_motion, standard_motions
@@ -105,6 +105,7 @@ class Session:
         self.rest = face.neutral if pose is None else pose
         self._mixer, self._names = Mixer(face, self.rest), Names(face, self.rest)
         size, channels = len(face.parameters), vocabulary(CHANNELS)
+        self._looks = Looks(self.loop_s)
         self._idle = Idle(seed, self.rate, idle)
         self._gaze, self._speech = Motors(channels.defaults), Motors(channels.defaults)
         self._expression, self._direct = Motors(np.zeros(size)), Motors(self.rest.values)
@@ -217,6 +218,8 @@ class Session:
         if layer in ("gaze", "speech"):
             motors = self._gaze if layer == "gaze" else self._speech
             targets = _channel_targets(message["values"])
+            if layer == "gaze":
+                self._looks.leave()
         else:
             motors = self._direct if layer == "direct" else self._expression
             targets = self._names.targets(message["values"])
@@ -279,7 +282,12 @@ class Session:
         return {"loops": utterance.loops, "speech": turn.number}
 
     def _look(self, message: Message) -> dict[str, Any]:
-        for channel, path in look_ways(message["at"], message["head"], self._gaze.values, self.loop_s):
+        for channel, path in self._looks.look(message["at"], message["head"], self._gaze.values):
+            self._gaze.move(channel, *path)
+        return {}
+
+    def _target(self, message: Message) -> dict[str, Any]:
+        for channel, path in self._looks.place(message["name"], message["at"], self._gaze.values):
             self._gaze.move(channel, *path)
         return {}
 
@@ -321,6 +329,7 @@ class Session:
         return {}
 
     def _stop_gaze(self, slices: int) -> None:
+        self._looks.leave()
         self._rest(self._gaze, range(len(self._gaze.values)), slices)
 
     def _stop_expression(self, slices: int) -> None:
@@ -359,6 +368,7 @@ _ACTS: Mapping[str, Callable[[Session, Message], dict[str, Any]]] = MappingProxy
         "move": Session._move,
         "play": Session._play,
         "look": Session._look,
+        "target": Session._target,
         "stop": Session._stop,
         "interrupt": Session._interrupt,
         "reset": Session._reset,

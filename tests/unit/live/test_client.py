@@ -43,6 +43,7 @@ def event(name: str, identity: str, **rest: Any) -> dict[str, Any]:
         (lambda face: face.play("smile", strength=0.8), {"kind": "play", "motion": "smile", "strength": 0.8}),
         (lambda face: face.look("left"), {"kind": "look", "at": "left"}),
         (lambda face: face.look(np.array([0.1, 0, 0.5]), head=0), {"kind": "look", "at": [0.1, 0, 0.5], "head": 0}),
+        (lambda face: face.target("cup", (0, 0, 1)), {"kind": "target", "name": "cup", "at": [0, 0, 1]}),
         (lambda face: face.stop(), {"kind": "stop"}),
         (lambda face: face.stop("gaze", over_ms=0), {"kind": "stop", "layer": "gaze", "over_ms": 0}),
         (lambda face: face.interrupt(), {"kind": "interrupt"}),

@@ -208,6 +208,8 @@ COMMANDS = st.one_of(
         st.booleans(),
     ),
     st.builds(lambda *at: {"kind": "look", "at": list(at)}, *[st.floats(-2, 2).filter(bool)] * 3),
+    st.builds(lambda *at: {"kind": "target", "name": "cup", "at": list(at)}, *[st.floats(-2, 2).filter(bool)] * 3),
+    st.just({"kind": "look", "at": "cup"}),
     st.builds(
         lambda layer: {"kind": "stop", "layer": layer}, st.sampled_from(["gaze", "expression", "speech", "direct"])
     ),
@@ -223,6 +225,7 @@ def test_values_stay_in_range_and_the_same_log_gives_the_same_frames(name, comma
     log, frames = [], []
     table = face(name).parameters
     session = Session(face(name), seed=seed, log=log.append)
+    ok(session, kind="target", name="cup", at=[0.3, 0, 1])
     for loops, command in commands:
         assert session.handle(command)["kind"] == "ok"
         frames += run(session, loops)
