@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 
@@ -16,13 +16,11 @@ from mien.vocab import vocabulary
 
 from .messages import IDLE_PARTS
 from .mixing import CHANNELS
+from .phrases import Piece
 from .slices import Floats, Motors, Way, count_slices
 
 STRETCH_S = 30.0
 """Each stretch begins and ends at rest, so that the next can follow; our choice."""
-
-Piece = tuple[int, int, Floats]
-"""What a part does with a channel in a stretch: the number of each, and (loops,) values."""
 
 EASE_S = 0.3
 """A part comes and goes in this time when it is switched."""
@@ -61,8 +59,13 @@ class Idle:
         for part, amount in enumerate(self.usual):
             self.amounts.move(part, Way(amount, slices))
 
-    def step(self) -> Floats:
-        """(C,) what the channels do in the next loop."""
+    def step(self, told: Sequence[tuple[int, int, float]] = (), share: float = 0.0) -> Floats:
+        """(C,) what the channels do in the next loop.
+
+        Args:
+            told: part, channel and value of each that somebody else moves now.
+            share: how much of these parts is theirs, 0 to 1.
+        """
         number, place = divmod(self._loop, self._loops)
         if place == 0:
             # Where loops are long a stretch has fewer of them than pieces.
@@ -74,8 +77,11 @@ class Idle:
         self.amounts.step()
         amounts = self.amounts.values.tolist()
         values = np.zeros(len(vocabulary(CHANNELS)))
+        theirs = {part for part, _, _ in told}
         for part, channel, track in self._stretch:
-            values[channel] += amounts[part] * track[place]
+            values[channel] += amounts[part] * track[place] * (1.0 - share if part in theirs else 1.0)
+        for part, channel, value in told:
+            values[channel] += amounts[part] * value * share
         return values
 
     def _make(self, number: int) -> Iterator[Piece]:

@@ -18,6 +18,7 @@ from mien.vocab import vocabulary
 
 from .messages import Message
 from .mixing import CHANNELS
+from .phrases import Piece, life_beside
 from .slices import Floats
 
 Cues = Sequence[tuple[float, float, str]]
@@ -31,11 +32,13 @@ class Utterance:
         channels: (C, loops) what the channels do.
         events: what happens, by loop; that it ends is no part of it.
         acts: messages that marks in the text stand for, by loop.
+        life: blinks and glances that go with its phrases.
     """
 
     channels: Floats
     events: Mapping[int, tuple[Mapping[str, Any], ...]]
     acts: Mapping[int, tuple[Message, ...]] = field(default_factory=dict)
+    life: tuple[Piece, ...] = ()
 
     @property
     def loops(self) -> int:
@@ -92,9 +95,9 @@ def make_utterance(text: str, phones: Cues, words: Cues, *, rate: Fraction, seed
         RangeError: a time is wrong.
     """
     said, spelled = _cues(phones), _cues(words)
+    own = seed + crc32(text.encode())
     tracks = dict(articulate(said))
     if spelled:
-        own = seed + crc32(text.encode())
         accents = find_accents(spelled, said, own)
         length_s = said[-1].end_s
         tracks |= {"head_nod": nods(accents, length_s, own), "brow_raise": brow_raises(accents, length_s, own)}
@@ -114,7 +117,7 @@ def make_utterance(text: str, phones: Cues, words: Cues, *, rate: Fraction, seed
         loop = min(int(word.start_s * float(rate)), loops - 1)
         event = {"event": "speech.word", "word": word.symbol, "number": number}
         events[loop] = (*events.get(loop, ()), event)
-    return Utterance(channels, events)
+    return Utterance(channels, events, life=life_beside(said, times[:loops], own))
 
 
 def _cues(cues: Cues) -> tuple[Cue, ...]:

@@ -114,7 +114,9 @@ class Session:
         self._said: deque[Turn] = deque()
         self._happened: list[Mapping[str, Any]] = []
         self._said_loops = self._utterances = 0
-        self._speaking = False
+        self._speaking = self._saying = False
+        self._told: tuple[tuple[int, int, float], ...] = ()
+        self._telling = Motors([0.0])
         self.values: Floats = self._mix(np.zeros(len(channels)))
         """(P,) as of the last loop; nobody changes them."""
         if log is not None:
@@ -152,9 +154,17 @@ class Session:
     def step(self) -> Frame:
         """The next loop: one slice of every motor that has any."""
         events = self._speak()
-        for motors in (self._gaze, self._speech, self._expression, self._direct, self._held, self._borrowed):
+        for motors in (
+            self._gaze,
+            self._speech,
+            self._expression,
+            self._direct,
+            self._held,
+            self._borrowed,
+            self._telling,
+        ):
             motors.step()
-        self.values = self._mix(self._idle.step())
+        self.values = self._mix(self._idle.step(self._told, float(self._telling.values[0])))
         frame = Frame(self.loop, Pose(self.face.parameters, self.values), events)
         self.loop += 1
         self._said_loops += bool(self._said)
@@ -193,6 +203,14 @@ class Session:
         if speaking != self._speaking:
             self._speaking = speaking
             self._borrowed.move(0, Way(float(speaking), self._slices(BORROW_S if speaking else GIVE_BACK_S), "cosine"))
+        saying = bool(self._said)
+        if saying != self._saying:
+            self._saying = saying
+            self._telling.move(0, Way(float(saying), self._slices(BORROW_S if saying else GIVE_BACK_S), "cosine"))
+        if saying:
+            # What broke off stays while idle life takes over.
+            life = self._said[0].utterance.life
+            self._told = tuple((part, channel, float(values[self._said_loops])) for part, channel, values in life)
         events = [*self._happened]
         self._happened.clear()
         if self._said:
