@@ -363,7 +363,13 @@ PARTS = {part.__name__: part for part in (loops, paths, commands, viewers, busy,
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("parts", nargs="*", choices=[[], *PARTS], help="what to measure; all but memory unless said")
+    parser.add_argument(
+        "parts",
+        nargs="*",
+        choices=[[], *PARTS],
+        metavar="PART",
+        help=f"of {', '.join(PARTS)}; all but memory unless said",
+    )
     parser.add_argument("--seconds", type=float, default=60.0, help="of loops, and half of it for viewers")
     parser.add_argument("--minutes", type=float, default=30.0, help="of watching memory")
     parser.add_argument("--face", default="head")
