@@ -38,10 +38,6 @@ class DrawingFrames:
         """None."""
         return {}
 
-    def fits(self, drawing: Any) -> bool:
-        """Whether it is a drawing."""
-        return isinstance(drawing, Drawing)
-
     def encode(self, drawing: Drawing) -> bytes:
         """Step, counts, background; where contours, outlines and cuts end, points, outlines of paths, cuts, colours."""
         outlines = _Outlines()

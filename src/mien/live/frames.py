@@ -36,11 +36,8 @@ class Shapes(Protocol):
     def arrays(self) -> Mapping[str, NDArray[Any]]:
         """The same, what is numbers."""
 
-    def fits(self, shape: Any) -> bool:
-        """Whether frames of this setup can show a shape, and should."""
-
-    def encode(self, shape: Any) -> bytes:
-        """A frame without its header."""
+    def encode(self, shape: Any) -> bytes | None:
+        """A frame without its header; None where a shape needs, or deserves, a setup of its own."""
 
 
 class FrameEncoder:
@@ -75,9 +72,11 @@ class FrameEncoder:
             MienError: the face has a point or a colour that is not a finite number.
         """
         shape = self._shape(frame.pose)
-        if not self._shapes.fits(shape):
+        body = self._shapes.encode(shape)
+        if body is None:
             self._begin(shape)
-        return self._header(FRAME, frame.loop) + self._shapes.encode(shape)
+            body = self._shapes.encode(shape) or b""
+        return self._header(FRAME, frame.loop) + body
 
     def _shape(self, pose: Pose) -> Mesh | Drawing:
         return self._face.shape(fill_rows(self._face, pose, self._scene))

@@ -57,36 +57,44 @@ class MeshFrames:
         """What makes a surface of a cage, and colours."""
         return {**self._surface.arrays, "colors": self._codes}
 
-    def fits(self, mesh: Any) -> bool:
-        """Whether its topology is the same, and its colours are not other ones for good."""
-        if not isinstance(mesh, Mesh) or mesh.topology is not self._topology or len(mesh.colors) != len(self._colors):
-            return False
+    def encode(self, mesh: Mesh) -> bytes | None:
+        """Step, counts, points, runs of changed colours, normals of round parts, changed colours.
+
+        None where the topology is another one, or the colours are other ones for good.
+        """
+        if mesh.topology is not self._topology or len(mesh.colors) != len(self._colors):
+            return None
+        changed = _find_differing(mesh.colors, self._colors)
         last, self._last = self._last, mesh.colors
         most = LIVELY * len(mesh.colors)
-        differing = np.count_nonzero(_differing(mesh.colors, self._colors))
-        return bool(differing <= most or np.count_nonzero(_differing(mesh.colors, last)) > most)
-
-    def encode(self, mesh: Mesh) -> bytes:
-        """Step, counts, points, runs of changed colours, normals of round parts, changed colours."""
-        points = self._steps.encode(mesh.points)
-        changed = np.flatnonzero(_differing(mesh.colors, self._colors))
+        if len(changed) > most and len(_find_differing(mesh.colors, last)) <= most:
+            return None
         codes = to_srgb(mesh.colors[changed])
         seen = (codes != self._codes[changed]).any(axis=1)
         changed, codes = changed[seen], codes[seen]
-        runs = _find_runs(changed)
+        points, runs = self._steps.encode(mesh.points), _find_runs(changed)
         vertices = self._surface.round_vertices
         normals = own_normals(mesh)[vertices] if len(vertices) else np.zeros((0, 3))
+        if not np.isfinite(normals).all():
+            raise MienError("a face to be sent has a normal that is not a finite number")
         counts = COUNTS.pack(self._steps.step, 0, len(points), len(normals), len(runs), len(codes))
         rounded = np.rint(normals * 127.0).astype(np.int8)
         return b"".join((counts, points.tobytes(), runs.tobytes(), rounded.tobytes(), codes.tobytes()))
 
 
-def _differing(colors: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(V,) whether they differ, and the colours are numbers."""
+def _find_differing(colors: NDArray[np.float64], others: NDArray[np.float64]) -> Ints:
+    """Numbers of those that differ.
+
+    Raises:
+        MienError: one of them is not a finite number.
+    """
     if colors is others:
-        return np.zeros(len(colors), dtype=bool)
+        return np.zeros(0, dtype=np.int64)
     channels = colors != others
-    return channels[:, 0] | channels[:, 1] | channels[:, 2]
+    differing = np.flatnonzero(channels[:, 0] | channels[:, 1] | channels[:, 2])
+    if not np.isfinite(colors[differing]).all():
+        raise MienError("a face to be sent has a colour that is not a finite number")
+    return differing
 
 
 def _find_runs(numbers: Ints) -> NDArray[np.uint16]:

@@ -10,10 +10,11 @@ export class Surface {
   /** @param {Setup} setup of a mesh */
   constructor(setup) {
     this.setup = setup;
-    const { vertex_points, polygon_starts, node_starts } = setup.arrays;
+    const { matrix_rows, vertex_points, polygon_starts, node_starts } = setup.arrays;
     const vertices = vertex_points.length;
     this.refined = new Float32Array(3 * setup.refined_points);
     this.refinedColors = new Float32Array(setup.colored_by === "vertex" ? this.refined.length : 0);
+    this.made = new Float32Array(3 * matrix_rows.length);
     this.polygonNormals = new Float32Array(3 * (polygon_starts.length - 1));
     this.nodeNormals = new Float32Array(3 * (node_starts.length - 1));
     /** Metres, three a drawn vertex. */
@@ -29,8 +30,11 @@ export class Surface {
   update(frame) {
     const { refined, nodeNormals, setup } = this;
     const { step, points } = frame;
-    for (let n = 0; n < points.length; n++) refined[n] = setup.middle[n % 3] + step * points[n];
-    refine(refined, setup.arrays);
+    const [x, y, z] = setup.middle;
+    for (let n = 0; n < points.length; n += 3) {
+      put(refined, n, x + step * points[n], y + step * points[n + 1], z + step * points[n + 2]);
+    }
+    refine(refined, setup.arrays, this.made);
     sumPolygons(refined, setup.arrays, this.polygonNormals);
     sumNodes(this.polygonNormals, setup.arrays, nodeNormals);
     const { round_nodes, vertex_points, vertex_nodes } = setup.arrays;
@@ -63,7 +67,7 @@ export class Surface {
     const byVertex = setup.colored_by === "vertex";
     const source = byVertex ? this.refinedColors : new Float32Array(codes.length);
     for (let n = 0; n < codes.length; n++) source[n] = toLinear(codes[n]);
-    if (byVertex) refine(source, setup.arrays);
+    if (byVertex) refine(source, setup.arrays, this.made);
     for (let n = 0; n < vertex_colors.length; n++) {
       const number = vertex_colors[n];
       for (let c = 0; c < 3; c++) {
@@ -80,66 +84,78 @@ export class Surface {
   }
 }
 
-/** Rows that are no mere copies of the cage, after those that are. @param {Float32Array} values */
-function refine(values, { matrix_rows, matrix_starts, matrix_columns, matrix_weights }) {
-  // From the last row to the first: rows of the cage itself move too, and all are made of the cage as it was.
-  const made = new Float32Array(3 * matrix_rows.length);
-  for (let n = 0, entry = 0; n < matrix_rows.length; n++) {
-    let [x, y, z] = [0, 0, 0];
-    for (const end = matrix_starts[n + 1]; entry < end; entry++) {
+/**
+ * Makes the rows of a surface that are no mere copies of the cage; the cage lies in the first ones.
+ *
+ * @param {Float32Array} values three a row @param {Object<string, any>} arrays of the setup @param {Float32Array} made
+ */
+function refine(values, { matrix_rows: rows, matrix_starts: starts, matrix_columns, matrix_weights }, made) {
+  // All are made of the cage as it was before its own rows move.
+  for (let n = 0; n < rows.length; n++) {
+    const end = starts[n + 1];
+    let x = 0;
+    let y = 0;
+    let z = 0;
+    for (let entry = starts[n]; entry < end; entry++) {
       const column = 3 * matrix_columns[entry];
       const weight = matrix_weights[entry];
       x += weight * values[column];
       y += weight * values[column + 1];
       z += weight * values[column + 2];
     }
-    made[3 * n] = x;
-    made[3 * n + 1] = y;
-    made[3 * n + 2] = z;
+    put(made, 3 * n, x, y, z);
   }
-  for (let n = 0; n < matrix_rows.length; n++) {
-    const row = 3 * matrix_rows[n];
-    values[row] = made[3 * n];
-    values[row + 1] = made[3 * n + 1];
-    values[row + 2] = made[3 * n + 2];
-  }
+  for (let n = 0; n < rows.length; n++) put(values, 3 * rows[n], made[3 * n], made[3 * n + 1], made[3 * n + 2]);
 }
 
-/** Normals of polygons, each as long as twice its area. */
-function sumPolygons(points, { polygon_starts, polygon_corners }, out) {
-  for (let f = 0; f + 1 < polygon_starts.length; f++) {
-    const [start, end] = [polygon_starts[f], polygon_starts[f + 1]];
-    const a = 3 * polygon_corners[start];
-    let [x, y, z] = [0, 0, 0];
-    for (let corner = start + 1; corner + 1 < end; corner++) {
-      const b = 3 * polygon_corners[corner];
-      const c = 3 * polygon_corners[corner + 1];
-      const [ux, uy, uz] = [points[b] - points[a], points[b + 1] - points[a + 1], points[b + 2] - points[a + 2]];
-      const [wx, wy, wz] = [points[c] - points[a], points[c + 1] - points[a + 1], points[c + 2] - points[a + 2]];
+/**
+ * Normals of polygons, each as long as twice its area.
+ *
+ * @param {Float32Array} points @param {Object<string, any>} arrays of the setup @param {Float32Array} out
+ */
+function sumPolygons(points, { polygon_starts: starts, polygon_corners: corners }, out) {
+  for (let f = 0; f + 1 < starts.length; f++) {
+    const last = starts[f + 1] - 1;
+    const a = 3 * corners[starts[f]];
+    let x = 0;
+    let y = 0;
+    let z = 0;
+    for (let corner = starts[f] + 1; corner < last; corner++) {
+      const b = 3 * corners[corner];
+      const c = 3 * corners[corner + 1];
+      const ux = points[b] - points[a];
+      const uy = points[b + 1] - points[a + 1];
+      const uz = points[b + 2] - points[a + 2];
+      const wx = points[c] - points[a];
+      const wy = points[c + 1] - points[a + 1];
+      const wz = points[c + 2] - points[a + 2];
       x += uy * wz - uz * wy;
       y += uz * wx - ux * wz;
       z += ux * wy - uy * wx;
     }
-    out[3 * f] = x;
-    out[3 * f + 1] = y;
-    out[3 * f + 2] = z;
+    put(out, 3 * f, x, y, z);
   }
 }
 
-/** Unit normals of nodes, from those of the polygons around them. */
-function sumNodes(normals, { node_starts, node_polygons }, out) {
-  for (let n = 0, entry = 0; n + 1 < node_starts.length; n++) {
-    let [x, y, z] = [0, 0, 0];
-    for (const end = node_starts[n + 1]; entry < end; entry++) {
-      const polygon = 3 * node_polygons[entry];
+/**
+ * Unit normals of nodes, from those of the polygons around them.
+ *
+ * @param {Float32Array} normals @param {Object<string, any>} arrays of the setup @param {Float32Array} out
+ */
+function sumNodes(normals, { node_starts: starts, node_polygons: polygons }, out) {
+  for (let n = 0; n + 1 < starts.length; n++) {
+    const end = starts[n + 1];
+    let x = 0;
+    let y = 0;
+    let z = 0;
+    for (let entry = starts[n]; entry < end; entry++) {
+      const polygon = 3 * polygons[entry];
       x += normals[polygon];
       y += normals[polygon + 1];
       z += normals[polygon + 2];
     }
     const scale = 1 / Math.max(Math.sqrt(x * x + y * y + z * z), 1e-30);
-    out[3 * n] = x * scale;
-    out[3 * n + 1] = y * scale;
-    out[3 * n + 2] = z * scale;
+    put(out, 3 * n, x * scale, y * scale, z * scale);
   }
 }
 
@@ -147,8 +163,13 @@ function sumNodes(normals, { node_starts, node_polygons }, out) {
 function gather(values, numbers, out) {
   for (let n = 0; n < numbers.length; n++) {
     const from = 3 * numbers[n];
-    out[3 * n] = values[from];
-    out[3 * n + 1] = values[from + 1];
-    out[3 * n + 2] = values[from + 2];
+    put(out, 3 * n, values[from], values[from + 1], values[from + 2]);
   }
+}
+
+/** @param {Float32Array} out @param {number} place @param {number} x @param {number} y @param {number} z */
+function put(out, place, x, y, z) {
+  out[place] = x;
+  out[place + 1] = y;
+  out[place + 2] = z;
 }
