@@ -15,11 +15,13 @@ export class MeshView {
     this.canvas = canvas;
     this.setup = setup;
     this.surface = new Surface(setup);
-    this.orbit = new Orbit(canvas, () => this.paint());
+    this.orbit = new Orbit(canvas, () => this.paintSoon());
     const gl = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL2, which a head is drawn by");
     this.gl = gl;
     this.drawn = false;
+    /** Number of the paint that is asked for; 0 where none is. */
+    this.awaited = 0;
     this.listeners = new AbortController();
     const { signal } = this.listeners;
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault(), { signal });
@@ -45,6 +47,7 @@ export class MeshView {
   dispose() {
     this.listeners.abort();
     this.orbit.dispose();
+    cancelAnimationFrame(this.awaited);
     const { gl } = this;
     for (const buffer of [...Object.values(this.buffers), this.triangles]) gl.deleteBuffer(buffer);
     gl.deleteVertexArray(this.vertices);
@@ -99,9 +102,16 @@ export class MeshView {
     }
   }
 
+  /** Paints before the browser next shows anything: a hand moves more often than that. */
+  paintSoon() {
+    this.awaited ||= requestAnimationFrame(() => this.paint());
+  }
+
   /** Draws what was sent last, as it is seen from here. */
   paint() {
     const { gl, canvas, setup } = this;
+    cancelAnimationFrame(this.awaited);
+    this.awaited = 0;
     if (!this.drawn || gl.isContextLost()) return;
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);

@@ -21,10 +21,11 @@ export class Orbit {
     if (!angles.has(canvas)) angles.set(canvas, { yaw: 0, pitch: 0 });
     this.angles = /** @type {{yaw: number, pitch: number}} */ (angles.get(canvas));
     this.changed = changed;
+    this.from = [0, 0];
     this.listeners = new AbortController();
     const { signal } = this.listeners;
     canvas.style.touchAction = "none";
-    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId), { signal });
+    canvas.addEventListener("pointerdown", (event) => this.grasp(canvas, event), { signal });
     canvas.addEventListener("pointermove", (event) => this.drag(canvas, event), { signal });
     canvas.addEventListener("dblclick", () => this.set(0, 0), { signal });
   }
@@ -34,9 +35,18 @@ export class Orbit {
   }
 
   /** @param {HTMLCanvasElement} canvas @param {PointerEvent} event */
-  drag(canvas, event) {
-    if (!canvas.hasPointerCapture(event.pointerId)) return;
-    this.set(this.angles.yaw - SPEED * event.movementX, this.angles.pitch + SPEED * event.movementY);
+  grasp(canvas, event) {
+    canvas.setPointerCapture(event.pointerId);
+    this.from = [event.clientX, event.clientY];
+  }
+
+  /** @param {HTMLCanvasElement} canvas @param {PointerEvent} event */
+  drag(canvas, { pointerId, clientX, clientY }) {
+    if (!canvas.hasPointerCapture(pointerId)) return;
+    // Browsers do not agree on how far an event says that a finger has moved.
+    const [x, y] = this.from;
+    this.from = [clientX, clientY];
+    this.set(this.angles.yaw - SPEED * (clientX - x), this.angles.pitch + SPEED * (clientY - y));
   }
 
   /** @param {number} yaw @param {number} pitch radians, beside those of the scene */
