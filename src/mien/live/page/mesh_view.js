@@ -6,8 +6,10 @@
 
 import { fitPixels } from "./canvas.js";
 import { Orbit, project } from "./orbit.js";
+import { link } from "./program.js";
 import * as shaders from "./shaders.js";
 import { Surface } from "./surface.js";
+import { Target } from "./target.js";
 
 export class MeshView {
   /** @param {HTMLCanvasElement} canvas @param {Setup} setup */
@@ -16,7 +18,7 @@ export class MeshView {
     this.setup = setup;
     this.surface = new Surface(setup);
     this.orbit = new Orbit(canvas, () => this.paintSoon());
-    const gl = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    const gl = canvas.getContext("webgl2", { antialias: false, depth: false, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL2, which a head is drawn by");
     this.gl = gl;
     this.drawn = false;
@@ -51,6 +53,7 @@ export class MeshView {
     const { gl } = this;
     for (const buffer of [...Object.values(this.buffers), this.triangles]) gl.deleteBuffer(buffer);
     gl.deleteVertexArray(this.vertices);
+    this.target.dispose();
     for (const program of [this.program, this.behind]) gl.deleteProgram(program.program);
   }
 
@@ -58,7 +61,8 @@ export class MeshView {
   prepare() {
     const { gl, surface } = this;
     this.program = link(gl, shaders.SURFACE_VERTEX, shaders.SURFACE_FRAGMENT);
-    this.behind = link(gl, shaders.BACKGROUND_VERTEX, shaders.BACKGROUND_FRAGMENT);
+    this.behind = link(gl, shaders.WHOLE_VERTEX, shaders.BACKGROUND_FRAGMENT);
+    this.target = new Target(gl);
     this.vertices = gl.createVertexArray();
     gl.bindVertexArray(this.vertices);
     this.buffers = {
@@ -113,9 +117,7 @@ export class MeshView {
     cancelAnimationFrame(this.awaited);
     this.awaited = 0;
     if (!this.drawn || gl.isContextLost()) return;
-    gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.target.begin(canvas.width, canvas.height);
     gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.CULL_FACE);
     gl.useProgram(this.behind.program);
@@ -133,6 +135,7 @@ export class MeshView {
       gl.uniform3f(this.program.place("material"), part.gloss, part.power, part.lit ? 1 : 0);
       gl.drawElements(gl.TRIANGLES, 3 * part.count, kind, 3 * part.first * BYTES_PER_ELEMENT);
     }
+    this.target.show();
   }
 
   /** Camera and lamps. */
@@ -152,26 +155,4 @@ export class MeshView {
     }
     gl.uniform1f(program.place("cosinePower"), setup.cosine_power);
   }
-}
-
-/** @param {WebGL2RenderingContext} gl @param {string} vertex @param {string} fragment */
-function link(gl, vertex, fragment) {
-  const program = gl.createProgram();
-  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
-    const shader = gl.createShader(kind);
-    gl.shaderSource(shader, source);
-    gl.compileShader(shader);
-    gl.attachShader(program, shader);
-    gl.deleteShader(shader);
-  }
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-    throw new Error(`a shader does not link: ${gl.getProgramInfoLog(program)}`);
-  }
-  const places = new Map();
-  const place = (/** @type {string} */ name) => {
-    if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
-    return places.get(name);
-  };
-  return { program, place };
 }

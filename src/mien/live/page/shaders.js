@@ -1,13 +1,7 @@
-/** Light on every pixel, by the formulas of mien.render.lighting; and the background behind the face. */
+/** Light on every pixel, by the formulas of mien.render.lighting; the background; and from linear light to sRGB. */
 
 /** Most lamps that a scene of a page has. */
 export const MOST_LAMPS = 8;
-
-const SRGB = `
-vec3 toSrgb(vec3 light) {
-  vec3 share = clamp(light, 0.0, 1.0);
-  return mix(1.055 * pow(share, vec3(1.0 / 2.4)) - 0.055, 12.92 * share, lessThanEqual(share, vec3(0.0031308)));
-}`;
 
 export const SURFACE_VERTEX = `#version 300 es
 uniform mat4 projection;
@@ -37,11 +31,10 @@ in vec3 place;
 in vec3 direction;
 in vec3 own;
 out vec4 pixel;
-${SRGB}
 void main() {
   float gloss = material.x, power = material.y;
   if (material.z == 0.0) {
-    pixel = vec4(toSrgb(own), 1.0);
+    pixel = vec4(own, 1.0);
     return;
   }
   vec3 n = normalize(gl_FrontFacing ? direction : -direction);
@@ -58,10 +51,10 @@ void main() {
       highlight += lampColor[i] * (gloss * pow(shine, power));
     }
   }
-  pixel = vec4(toSrgb(own * diffuse + highlight), 1.0);
+  pixel = vec4(own * diffuse + highlight, 1.0);
 }`;
 
-export const BACKGROUND_VERTEX = `#version 300 es
+export const WHOLE_VERTEX = `#version 300 es
 out float up;
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
@@ -74,8 +67,21 @@ precision highp float;
 uniform vec4 ends[2];
 in float up;
 out vec4 pixel;
-${SRGB}
 void main() {
   vec4 behind = mix(ends[0], ends[1], up);
-  pixel = vec4(toSrgb(behind.rgb) * behind.a, behind.a);
+  pixel = vec4(behind.rgb * behind.a, behind.a);
+}`;
+
+/** Canvases are mixed with their page by codes of sRGB: what is multiplied by alpha there is the code. */
+export const SHOW_FRAGMENT = `#version 300 es
+precision highp float;
+uniform sampler2D picture;
+out vec4 pixel;
+vec3 toSrgb(vec3 light) {
+  vec3 share = clamp(light, 0.0, 1.0);
+  return mix(1.055 * pow(share, vec3(1.0 / 2.4)) - 0.055, 12.92 * share, lessThanEqual(share, vec3(0.0031308)));
+}
+void main() {
+  vec4 linear = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
+  pixel = vec4(toSrgb(linear.rgb / max(linear.a, 1e-6)) * linear.a, linear.a);
 }`;
