@@ -37,9 +37,8 @@ def replay(
 
     from mien import api
     from mien.formats import DEFAULT_FPS, check_performance
-    from mien.formats.cue_text import read_text
     from mien.formats.performances import usual_scene
-    from mien.live import perform_log, read_log
+    from mien.live import load_log, perform_log
 
     from . import settings
     from .stages import Stages
@@ -50,7 +49,7 @@ def replay(
     check_performance(out, variable=variable)
     stages = Stages(quiet)
     with stages.stage("replaying"):
-        stored = read_log(read_text(log).splitlines(), str(log))
+        stored = load_log(log)
         performance = perform_log(stored, api.load_face(face or stored.header.face))
     scene = settings.make_scene(
         usual_scene(out, api.default_scene(performance.face)),

@@ -1,6 +1,6 @@
 """A face that moves while one looks at it: sessions, messages, motions. No sockets, no clock."""
 
-from .logs import Log, read_log
+from .logs import Log, load_log, read_log
 from .loop import CATCH_UP, Deadlines, Report, run_loops
 from .messages import IDLE_PARTS, KINDS, LAYERS, Message, check_message, json_schema, parse_batch
 from .motions import Motion, fit_motion, parse_motions, standard_motions
@@ -26,6 +26,7 @@ __all__ = [
     "count_slices",
     "fit_motion",
     "json_schema",
+    "load_log",
     "parse_batch",
     "parse_motions",
     "perform_log",

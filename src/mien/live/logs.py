@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
-from mien.core import LoadError, MienError
+from mien.core import LoadError, MienError, Sound
 from mien.timeline.track import LIMIT
 
 from .fields import read_list, read_number, show
 from .messages import IDLE_PARTS, Message, check_message, parse_json
 from .motions import Motion, read_motion
+from .sounds import Sounds, parse_sound
 
 FORMAT = "mien-live"
 VERSION = 1
@@ -69,11 +71,13 @@ class Log:
         header: what it began with.
         commands: before which loop each message came, in order.
         loops: how many there were.
+        sounds: of utterances, by their numbers, as far as the session knew them.
     """
 
     header: Header
     commands: tuple[tuple[int, Message], ...]
     loops: int
+    sounds: Mapping[int, Sound] = field(default_factory=dict)
 
 
 def command_line(loop: int, message: Message) -> str:
@@ -86,6 +90,21 @@ def end_line(loops: int) -> str:
     return _line({"loops": loops})
 
 
+def load_log(path: Path) -> Log:
+    """The log in a file.
+
+    Raises:
+        LoadError: it cannot be read, or is no log.
+    """
+    try:
+        with path.open(encoding="utf-8-sig") as file:
+            return read_log(file, str(path))
+    except OSError as error:
+        raise LoadError(path, f"cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError:
+        raise LoadError(path, "is no text in UTF-8", hint="is this the log of a live session?") from None
+
+
 def read_log(lines: Iterable[str], place: str = "log") -> Log:
     """The log in lines of text. One without an end, of a session that was killed, ends with its last message.
 
@@ -95,6 +114,7 @@ def read_log(lines: Iterable[str], place: str = "log") -> Log:
     header: Header | None = None
     commands: list[tuple[int, Message]] = []
     loops: int | None = None
+    sounds = Sounds()
     for number, line in enumerate(lines, start=1):
         if not line.strip():
             continue
@@ -106,6 +126,8 @@ def read_log(lines: Iterable[str], place: str = "log") -> Log:
                 raise MienError("comes after the end")
             elif "loops" in value:
                 loops = _whole("loops", value["loops"])
+            elif "sound" in value:
+                sounds.add(_whole("sound", value["sound"]), parse_sound(value))
             else:
                 commands.append((_whole("loop", value.get("loop")), check_message(value.get("message"))))
         except MienError as error:
@@ -113,8 +135,8 @@ def read_log(lines: Iterable[str], place: str = "log") -> Log:
         if len(commands) > 1 and commands[-1][0] < commands[-2][0]:
             raise LoadError(place, f"loop {commands[-1][0]} comes after loop {commands[-2][0]}", line=number)
     if header is None:
-        raise LoadError(place, "there is no line in it", hint="a log begins with face, seed and loop length")
-    return Log(header, tuple(commands), loops if loops is not None else _last(commands))
+        raise LoadError(place, "is empty", hint="a log begins with face, seed and loop length")
+    return Log(header, tuple(commands), loops if loops is not None else _last(commands), sounds.finish())
 
 
 def _last(commands: list[tuple[int, Message]]) -> int:

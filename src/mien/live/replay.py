@@ -16,6 +16,7 @@ from mien.timeline.rates import time_of
 from .logs import Log
 from .session import Frame, Session
 from .slices import Floats
+from .sounds import join_sounds
 
 
 def replay(log: Log, face: Face) -> Iterator[Frame]:
@@ -46,7 +47,7 @@ def replay(log: Log, face: Face) -> Iterator[Frame]:
 
 
 def perform_log(log: Log, face: Face) -> Performance:
-    """The log as a performance: every row that moves, with a key at every loop, and the words that were said.
+    """The log as a performance: every row that moves, with a key at every loop, and what was said, with its sound.
 
     Raises:
         MienError: as ``replay``, or it has no loop.
@@ -76,7 +77,7 @@ def perform_log(log: Log, face: Face) -> Performance:
     words, phones = said.cues("words"), said.cues("phones")
     layer = Layer("direct", "replace", tracks)
     timeline = Timeline((layer,), length_s, fps=float(rate), words=words, phones=phones, text=said.text)
-    return Performance(timeline, face)
+    return Performance(timeline, face, join_sounds(log.sounds, said.spans_s, length_s))
 
 
 class _Said:
@@ -99,6 +100,15 @@ class _Said:
                 self._broke_off[event["speech"]] = now_s
 
     @property
+    def spans_s(self) -> dict[int, tuple[float, float]]:
+        """From when to when each text that was begun could be heard."""
+        ends_s = [*self._began.values(), self._length_s][1:]
+        return {
+            number: (began_s, min(self._broke_off.get(number, end_s), end_s))
+            for (number, began_s), end_s in zip(self._began.items(), ends_s, strict=True)
+        }
+
+    @property
     def text(self) -> str:
         """All that was begun."""
         return " ".join(self._messages[number]["text"].strip() for number in self._began)
@@ -106,8 +116,7 @@ class _Said:
     def cues(self, field: str) -> tuple[Cue, ...]:
         """The words or the phones that were heard, on the clock of the session."""
         found: list[Cue] = []
-        for number, began_s in self._began.items():
-            until_s = self._broke_off.get(number, self._length_s)
+        for number, (began_s, until_s) in self.spans_s.items():
             for start_s, end_s, symbol in self._messages[number][field] or ():
                 if began_s + start_s < until_s:
                     found.append(Cue(began_s + start_s, min(began_s + end_s, until_s), symbol))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mien.core import Face, MienError, Pose, UnknownNameError
+from mien.core import Face, MienError, Pose, Sound, UnknownNameError
 from mien.speech import Speech
 from mien.timeline import exact_rate
 from mien.vocab import vocabulary
@@ -25,6 +25,7 @@ from .motions import FaceMotion, Motion, fit_motion, standard_motions
 from .naming import Names
 from .saying import Turn, Utterance, make_utterance
 from .slices import Floats, Motors, Way, count_slices
+from .sounds import sound_line
 
 SILENT_S = 0.1
 """The mouth is shut so soon after an interruption."""
@@ -136,12 +137,13 @@ class Session:
             utterance: what ``make_utterance`` made of it for this session, where that was done beforehand; of a
                 ``say`` with phones.
         """
+        sound: Sound | None = None
         try:
             message = value if isinstance(value, Message) else check_message(value)
             if KINDS[message.kind].connection:
                 raise MienError(f"{message.kind}: is for a server, and this is a session without connections")
             if message.kind == "say":
-                message = self._spoken(message)
+                message, sound = self._spoken(message)
                 reply = self._say(message, utterance)
             else:
                 reply = _ACTS[message.kind](self, message)
@@ -149,6 +151,8 @@ class Session:
             return refusal(error, value.to_json() if isinstance(value, Message) else value)
         if self._log is not None and message.kind != "state":
             self._log(command_line(self.loop, message))
+        if sound is not None:
+            self.keep_sound(reply["speech"], sound)
         return {"kind": "ok", **reply} | ({} if message.id is None else {"id": message.id})
 
     def step(self) -> Frame:
@@ -169,6 +173,11 @@ class Session:
         self.loop += 1
         self._said_loops += bool(self._said)
         return frame
+
+    def keep_sound(self, speech: int, sound: Sound) -> None:
+        """Write the sound of an utterance, by its number, into the log: a replay is heard."""
+        if self._log is not None:
+            self._log(sound_line(speech, sound))
 
     def close(self) -> None:
         """Write the end of the log, which tells how many loops there were."""
@@ -272,10 +281,10 @@ class Session:
         """Groups of the table that rows are in."""
         return {self.face.parameters.rows[row].group for row in rows}
 
-    def _spoken(self, message: Message) -> Message:
-        """The message with its phones, so that the log does not need the voice again."""
+    def _spoken(self, message: Message) -> tuple[Message, Sound | None]:
+        """The message with its phones, and its sound, so that the log does not need the voice again."""
         if message["phones"] is not None:
-            return message
+            return message, None
         if self._voice is None:
             raise MienError("say: this session has no voice — give phones, or a session with a voice")
         speech = self._voice(message["text"])
@@ -283,7 +292,7 @@ class Session:
             name: tuple((cue.start_s, cue.end_s, cue.symbol) for cue in given)
             for name, given in (("phones", speech.phones), ("words", speech.words))
         }
-        return replace(message, fields=MappingProxyType({**message.fields, **cues}))
+        return replace(message, fields=MappingProxyType({**message.fields, **cues})), speech.sound
 
     def _say(self, message: Message, utterance: Utterance | None) -> dict[str, Any]:
         if len(self._said) == MOST_SAID:

@@ -314,7 +314,7 @@ def test_an_hour_blinks_at_the_published_rate_and_keeps_no_more_than_a_stretch()
 @pytest.mark.parametrize(
     ("lines", "words"),
     [
-        ([], "no line"),
+        ([], "is empty"),
         (["{}"], "mien-live"),
         (["nonsense"], "log:1: is no JSON"),
         (['{"format": "mien-live", "version": 2}'], "version"),

@@ -16,7 +16,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mien.core import MienError
+from mien.core import MienError, Sound
 from mien.live.fields import show
 from mien.live.loop import Deadlines, Report
 from mien.live.messages import Message, check_message, parse_batch, refusal
@@ -160,6 +160,7 @@ class Animator:
             if answer["kind"] == "ok":
                 if made.samples is not None:
                     self._send_sound(sound_message(answer["speech"], made.samples, made.rate_hz))
+                    self.session.keep_sound(answer["speech"], Sound(made.samples, made.rate_hz))
                 return
             made = Failure(answer["message"], made.message.id, made.message["more"])
         known = {} if made.id is None else {"id": made.id}
