@@ -76,6 +76,7 @@ function receiveBinary(buffer) {
     pictures.add(message, slowS() > 0);
     if (document.hidden) pictures.look(nowS());
     cameS = nowS();
+    if (!element("notice").hidden) watch();
   }
 }
 
@@ -142,7 +143,7 @@ function goOnUnseen() {
 /** Say what is wrong, and show numbers where they are wanted. */
 function watch() {
   const text = trouble(why, cameS === null ? null : nowS() - cameS);
-  document.body.classList.toggle("stale", Boolean(text));
+  document.body.classList.toggle("stale", cameS !== null && text !== "");
   // A film that this page is part of is no place for notices, once there is a face in it.
   notice.last(transparent && view ? "" : text);
   if (!element("status").hidden) writeStatus(element("status"), statusRows());
