@@ -20,7 +20,8 @@ Made by `python tools/messages.py` from the table in `src/mien/live/messages.py`
 
 A message is a JSON object with a `kind`; up to 100 of them can be sent as a list. Every message is answered, with
 `{"kind": "ok"}`, with the state that it asked for, or with `{"kind": "error", "message": "…"}`, which says what was
-wrong, what was wanted and what came; a message that is refused changes nothing. Left and right are the face's own.
+wrong, what was wanted and what came; a message that is refused changes nothing. Left and right are the face's own,
+but for directions of `look`: a face that looks `left` looks to the left as one sees the picture.
 JSON Schema: [messages.schema.json](messages.schema.json).
 
 ## Kinds

@@ -152,8 +152,8 @@ class Calls(ABC, Generic[T, L]):
         """Look at a point, in a direction or at a target: eyes first, the head follows.
 
         Args:
-            at: x, y, z in metres from the middle of the head (its own left, up, forward), or left, right, up, down,
-                viewer, away, or the name of a target.
+            at: x, y, z in metres from the middle of the head (its own left, up, forward); or left, right (as one sees
+                the picture), up, down, viewer, away; or the name of a target.
             head: how much of what is usual the head does, 0 to 1.
         """
         return self._ask({"kind": "look", "at": at if isinstance(at, str) else list(at), "head": head})

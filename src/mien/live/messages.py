@@ -139,7 +139,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             Kind(
                 "look",
                 "Looks at a point, x to the face's own left, y up, z forward from the middle of the head, in a "
-                "direction, or at a target: eyes first, the head follows. `viewer` is where a face looks by itself.",
+                "direction, or at a target: eyes first, the head follows. `left` and `right` are those of who "
+                "sees the picture; `viewer` is where a face looks by itself.",
                 (
                     Field(
                         "at",
