@@ -52,7 +52,10 @@ const connection = new Connection({
   onChange(reason) {
     why = reason;
     pictures.forget();
-    if (reason !== null) sound?.forget();
+    if (reason !== null) {
+      sound?.forget();
+      captions.clear();
+    }
     watch();
   },
 });
