@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AsyncExitStack, contextmanager
+from collections.abc import Sequence
+from contextlib import AsyncExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,8 +12,9 @@ import typer
 from mien.core import MienError
 
 from . import options
-from .main import signals
+from .main import Interrupted, signals
 from .stages import Stages
+from .streams import tell
 
 if TYPE_CHECKING:
     from mien.live.motions import Motion
@@ -84,7 +85,8 @@ def live(
         typer.Option("--vmc-to", metavar="HOST:PORT", help="Send the face by VMC, as in 127.0.0.1:39539."),
     ] = None,
     vmc_names: Annotated[
-        str, typer.Option("--vmc-names", metavar="SET", help="Names of its expressions: vrm0, vrm1, arkit.")
+        str,
+        typer.Option("--vmc-names", metavar="SET", help="Its names: vrm0, vrm1, arkit, perfect-sync."),
     ] = "vrm0",
     view: options.View = None,
     position: options.From = None,
@@ -112,7 +114,9 @@ def live(
     from mien.live.serving.speaker import Speaker
 
     from . import settings
+    from .session_log import session_log
 
+    stages = Stages(quiet)
     subject = api.load_face(face)
     scene = settings.make_scene(
         api.default_scene(subject),
@@ -131,6 +135,7 @@ def live(
     own = {} if token is None else {"token": _check_token(token)}
     doors = Doors(host, port, allow=tuple(allow or ()), tcp_port=tcp_port, udp_port=osc_port, **own)
     with ExitStack() as stack:
+        lines = None if log is None else stack.enter_context(session_log(log, tell))
         session = Session(
             subject,
             1.0 / rate,
@@ -138,30 +143,48 @@ def live(
             pose=settings.make_pose(subject, values, preset, units, mix, person, caricature),
             idle=_parts(idle),
             motions=_read_motions(motions or ()),
-            log=None if log is None else stack.enter_context(_log_file(log)),
+            log=None if lines is None else lines.write,
         )
         stack.callback(session.close)
         animator = Animator(session, FrameEncoder(subject, scene, session.rate))
+        if lines is not None:
+            animator.on_frame(lambda frame: lines.flush())
         if vmc_to is not None:
             stack.callback(_send_vmc(animator, vmc_to, vmc_names).close)
         speaker = None
         if not mute:
             speaker = Speaker(voice, session.rate, seed, animator.deliver, motions=session.motions)
-        asyncio.run(_serve(animator, doors, speaker, Stages(quiet)))
+        asyncio.run(_serve_until_signalled(animator, doors, speaker, stages))
+    if not session.loop:
+        raise Interrupted
+    late = animator.report.late
+    stages.say(f"mien: the face has stopped after {session.loop} loops, of which {late} were late")
+
+
+async def _serve_until_signalled(animator: Animator, doors: Doors, speaker: Speaker | None, stages: Stages) -> None:
+    """Serve until somebody wants it to end, be it while the voice wakes; to want it twice does not hurry the end."""
+    import asyncio
+
+    enough = asyncio.Event()
+    for number in signals():
+        asyncio.get_running_loop().add_signal_handler(number, enough.set)
+    serving = asyncio.create_task(_serve(animator, doors, speaker, stages))
+    waiting = asyncio.create_task(enough.wait())
+    await asyncio.wait((serving, waiting), return_when=asyncio.FIRST_COMPLETED)
+    for task in (serving, waiting):
+        task.cancel()
+    with suppress(asyncio.CancelledError):
+        await serving
 
 
 async def _serve(animator: Animator, doors: Doors, speaker: Speaker | None, stages: Stages) -> None:
-    """Open the doors and keep them open until somebody wants it to end."""
-    import asyncio
+    """Open the doors and keep them open as long as all goes well."""
     from datetime import UTC, datetime
     from importlib.metadata import version
 
     from mien.live.serving.runtime import Running, announce
     from mien.live.serving.server import open_server
 
-    enough = asyncio.Event()
-    for number in signals():
-        asyncio.get_running_loop().add_signal_handler(number, enough.set)
     async with AsyncExitStack() as stack:
         if speaker is not None:
             with stages.stage("waking the voice"):
@@ -173,15 +196,7 @@ async def _serve(animator: Animator, doors: Doors, speaker: Speaker | None, stag
         face = animator.session.face.name
         stack.enter_context(announce(Running(opened.link, opened.ports, face, version("mien"), start)))
         _tell(animator, doors, opened, stages)
-        waiting = [asyncio.create_task(work) for work in (enough.wait(), opened.wait())]
-        done, rest = await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
-        for task in rest:
-            task.cancel()
-        await asyncio.gather(*rest, return_exceptions=True)
-        for task in done:
-            task.result()
-    late = animator.report.late
-    stages.say(f"mien: the face has stopped after {animator.session.loop} loops, of which {late} were late")
+        await opened.wait()
 
 
 def _send_vmc(animator: Animator, target: str, names: str) -> VmcSender:
@@ -192,11 +207,15 @@ def _send_vmc(animator: Animator, target: str, names: str) -> VmcSender:
         raise MienError(f"--vmc-to {target}: want HOST:PORT, as in 127.0.0.1:39539")
     try:
         return VmcSender(animator, host.strip("[]"), int(port), names)
-    except OSError as error:
-        raise MienError(f"--vmc-to {target}: there is no such host ({error.strerror})") from None
+    except (OSError, UnicodeError) as error:
+        raise MienError(f"--vmc-to {target}: there is no such host ({error})") from None
 
 
 def _tell(animator: Animator, doors: Doors, opened: Opened, stages: Stages) -> None:
+    from socket import gethostname
+
+    from mien.live.serving.server import EVERYWHERE
+
     session = animator.session
     typer.echo(opened.link)
     stages.say(
@@ -212,6 +231,9 @@ def _tell(animator: Animator, doors: Doors, opened: Opened, stages: Stages) -> N
             f"mien: {doors.host} is open to others: whoever has the link can move the face, let it speak and see it. "
             "Nothing is encrypted: use it in networks that you trust, or behind a proxy with HTTPS"
         )
+    if doors.host in EVERYWHERE:
+        elsewhere = doors.link(opened.ports["page"], gethostname())
+        stages.say(f"mien: from elsewhere {elsewhere} (or with an address of this machine in the place of its name)")
 
 
 def _check_token(token: str) -> str:
@@ -238,16 +260,3 @@ def _read_motions(paths: Sequence[Path]) -> list[Motion]:
     from mien.live import parse_motions
 
     return [motion for path in paths for motion in parse_motions(read_text(path), str(path)).values()]
-
-
-@contextmanager
-def _log_file(path: Path) -> Iterator[Callable[[str], object]]:
-    """What writes lines to a new file; those of a session that is killed stay."""
-    try:
-        file = open(path, "x", encoding="utf-8", buffering=1)  # noqa: SIM115  closed below
-    except FileExistsError:
-        raise MienError(f"{path}: is there already — a log of a session is not replaced; give another name") from None
-    except OSError as error:
-        raise MienError(f"{path}: cannot be written ({error.strerror})") from None
-    with file:
-        yield lambda line: file.write(f"{line}\n")

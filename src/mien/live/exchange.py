@@ -15,6 +15,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from mien.core import MienError
 
+from .messages import ends_speech
+
 Answer = dict[str, Any]
 Event = dict[str, Any]
 Payload = Mapping[str, Any] | Sequence[Mapping[str, Any]]
@@ -187,8 +189,7 @@ def _put(queue: Queue, value: Event) -> None:
 
 
 def _breaks_off(message: Any) -> bool:
-    kind = message.get("kind") if isinstance(message, Mapping) else None
-    return kind in ("interrupt", "reset") or (kind == "stop" and message.get("layer") in (None, "speech"))
+    return isinstance(message, Mapping) and ends_speech(message.get("kind"), message)
 
 
 def read_event(event: Event) -> Event | None:

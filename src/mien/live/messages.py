@@ -67,12 +67,17 @@ class Message:
     @property
     def ends_speech(self) -> bool:
         """Whether nothing that was to be said before is said after it."""
-        return self.kind in ("interrupt", "reset") or (self.kind == "stop" and self["layer"] in (None, "speech"))
+        return ends_speech(self.kind, self.fields)
 
     def to_json(self) -> dict[str, Any]:
         """The message as JSON has it, with all of its fields that hold something."""
         found: dict[str, Any] = {"kind": self.kind} | ({} if self.id is None else {"id": self.id})
         return found | {name: _plain(value) for name, value in self.fields.items() if value is not None}
+
+
+def ends_speech(kind: object, fields: Mapping[str, Any]) -> bool:
+    """Whether nothing that was to be said before is said after a message, checked or not."""
+    return kind in ("interrupt", "reset") or (kind == "stop" and fields.get("layer") in (None, "speech"))
 
 
 def _over(default_ms: float, doc: str) -> Field:

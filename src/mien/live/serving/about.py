@@ -37,6 +37,8 @@ def describe(animator: Animator) -> dict[str, Any]:
         "clients": clients,
         "microphone": animator.microphone.describe(),
         "motions": sorted(session.motions),
+        "speaks": animator.speaker is not None,
+        **{name: tell() for name, tell in animator.about.items()},
     }
 
 

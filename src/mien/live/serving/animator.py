@@ -87,6 +87,8 @@ class Animator:
         self.messages = 0
         self.delays_s: deque[float] = deque(maxlen=MOST_DELAYS)
         """How late the newest loops began, seconds."""
+        self.about: dict[str, Callable[[], object]] = {}
+        """What is told besides of what runs with it, by name: JSON."""
         self._clock, self._sleep = clock, sleep
         self._setup = encoder.number
         self._hooks: list[Callable[[Frame], object]] = []

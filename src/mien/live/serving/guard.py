@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import hmac
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
-from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, urlencode
+from urllib.parse import parse_qs, quote, urlencode
 
 Scope = MutableMapping[str, Any]
 Event = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Event]]
 Send = Callable[[Event], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+USUAL_PORT = 80
+"""Of HTTP."""
 
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
@@ -56,14 +58,15 @@ class Guard:
         app: what is guarded.
         port: where it is reached.
         token: what a client must know: in a cookie, as bearer token, or in the query of the link.
-        hosts: further hosts (``name:port``) under which it is reached, and whose pages may connect.
+        hosts: further hosts (``name:port``) under which it is reached, and whose pages may connect. The address that
+            a connection comes to is always one: no name was resolved for it.
         origins: further origins whose pages may connect: ``http://localhost:3000``.
     """
 
     def __init__(self, app: App, port: int, token: str, hosts: Iterable[str] = (), origins: Iterable[str] = ()) -> None:
         self.app, self.token = app, token
-        self.hosts = {f"{host}:{port}" for host in LOOPBACK} | {host.lower() for host in hosts}
-        self.origins = {f"http://{host}" for host in self.hosts} | set(origins)
+        self.hosts = {f"{host}:{port}" for host in LOOPBACK} | {_with_port(host.lower()) for host in hosts}
+        self.origins = {origin.lower() for origin in origins}
         # Cookies do not tell ports apart.
         self.cookie = f"mien_{port}"
 
@@ -88,9 +91,10 @@ class Guard:
         """Status and reason; status 0 lets in."""
         headers = _headers(scope)
         host, origin = headers.get("host", []), headers.get("origin", [])
-        if len(host) != 1 or host[0].lower() not in self.hosts:
+        hosts = self.hosts | _own_address(scope)
+        if len(host) != 1 or _with_port(host[0].lower()) not in hosts:
             return 421, "this server is not reached under that name — allow it with --allow NAME:PORT"
-        if len(origin) > 1 or (origin and origin[0] not in self.origins):
+        if len(origin) > 1 or (origin and not self._is_ours(origin[0], hosts)):
             return 403, "pages of that origin may not connect — allow it with --allow ORIGIN"
         if not any(hmac.compare_digest(given.encode(), self.token.encode()) for given in self._tokens(scope, headers)):
             return 401, "a token is needed — open the link that 'mien live' has printed"
@@ -99,23 +103,35 @@ class Guard:
     def _tokens(self, scope: Scope, headers: dict[str, list[str]]) -> list[str]:
         found = list(_query(scope).get("token", []))
         found += [value[7:] for value in headers.get("authorization", []) if value[:7].lower() == "bearer "]
-        for value in headers.get("cookie", []):
-            try:
-                cookie = SimpleCookie(value).get(self.cookie)
-            except CookieError:
-                continue
-            found += [] if cookie is None else [cookie.value]
+        # Other servers of this machine may have put anything into theirs, which a strict reader takes for the end.
+        for pair in ";".join(headers.get("cookie", [])).split(";"):
+            name, _, value = pair.strip().partition("=")
+            found += [value] if name == self.cookie else []
         return found
+
+    def _is_ours(self, origin: str, hosts: set[str]) -> bool:
+        scheme, _, host = origin.partition("://")
+        return origin in self.origins or (scheme == "http" and _with_port(host) in hosts)
 
     async def _keep_token(self, scope: Scope, send: Send) -> None:
         """Put the token of a link into a cookie and take it out of the address, where it would be seen and kept."""
         rest = {name: values for name, values in _query(scope).items() if name != "token"}
-        place = scope["path"] + (f"?{urlencode(rest, doseq=True)}" if rest else "")
         # A path that begins with two slashes would be another host.
-        place = "/" + place.lstrip("/")
+        place = "/" + quote(scope["path"].lstrip("/")) + (f"?{urlencode(rest, doseq=True)}" if rest else "")
         cookie = f"{self.cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
-        headers = [(b"location", place.encode("latin-1", "ignore")), (b"set-cookie", cookie.encode())]
+        headers = [(b"location", place.encode()), (b"set-cookie", cookie.encode())]
         await _answer(send, 303, "", headers)
+
+
+def _own_address(scope: Scope) -> set[str]:
+    """Where the connection has come to, as a host; of an address, unlike a name, nobody can say that it is another."""
+    host, port = scope.get("server") or ("", None)
+    return set() if port is None else {f"[{host}]:{port}" if ":" in host else f"{host}:{port}"}
+
+
+def _with_port(host: str) -> str:
+    """A host as it is in lists; browsers leave the usual port out."""
+    return host if host.rpartition(":")[2].isdigit() else f"{host}:{USUAL_PORT}"
 
 
 def _headers(scope: Scope) -> dict[str, list[str]]:

@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator, Iterator, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from ipaddress import ip_address
-from typing import Any
+from types import MappingProxyType
 from urllib.parse import urlencode
 
 import uvicorn
@@ -24,12 +24,16 @@ from .about import describe
 from .animator import Animator
 from .guard import Guard
 from .http import MOST_BYTES, make_app
+from .patience import HttpConnection, SocketConnection
 from .tcp import serve_tcp
-from .udp import OscPort, serve_udp
+from .udp import serve_udp
 
 LONGEST_GOODBYE_S = 2.0
 SWITCH_S = 0.001
 """A thread that computes lets the loop go on after this time, seconds; Python's own is five times as long."""
+
+EVERYWHERE: Mapping[str, str] = MappingProxyType({"0.0.0.0": "127.0.0.1", "::": "::1"})
+"""Addresses that stand for all of this machine's, and how it calls itself there."""
 
 PING_S = 15.0
 """A client that does not answer within this time, twice, is gone."""
@@ -55,9 +59,9 @@ class Doors:
     tcp_port: int | None = None
     udp_port: int | None = None
 
-    def link(self, port: int) -> str:
-        """The address of the page on a port, with the token."""
-        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(self.host, self.host)
+    def link(self, port: int, host: str = "") -> str:
+        """The address of the page on a port, with the token; as it is seen from here unless another host is given."""
+        host = host or EVERYWHERE.get(self.host, self.host)
         return f"http://{_bracketed(host)}:{port}/?{urlencode({'token': self.token})}"
 
     @property
@@ -102,22 +106,19 @@ async def open_server(animator: Animator, doors: Doors) -> AsyncIterator[Opened]
             listener = stack.enter_context(_bind(doors.host, doors.port))
         port: int = listener.getsockname()[1]
         ports = {"page": port}
-        osc = await _open_others(animator, doors, ports, stack)
-
-        def about() -> dict[str, Any]:
-            return {**describe(animator), "ports": ports} | ({} if osc is None else {"osc": osc.report()})
-
-        app = Guard(make_app(animator, about), port, doors.token, *allowed(doors, port))
+        await _open_others(animator, doors, ports, stack)
+        inside = make_app(animator, lambda: {**describe(animator), "ports": ports})
+        app = Guard(inside, port, doors.token, *allowed(doors, port))
         server = _Server(
             uvicorn.Config(
                 app,
-                ws="websockets-sansio",
+                ws=SocketConnection,
                 ws_max_size=MOST_BYTES,
                 ws_ping_interval=PING_S,
                 ws_ping_timeout=PING_S,
                 # It saves a tenth of the bytes and takes a third of a core.
                 ws_per_message_deflate=False,
-                http="h11",
+                http=HttpConnection,
                 lifespan="off",
                 access_log=False,
                 log_config=None,
@@ -147,23 +148,18 @@ async def open_server(animator: Animator, doors: Doors) -> AsyncIterator[Opened]
             await asyncio.gather(looping, return_exceptions=True)
 
 
-async def _open_others(
-    animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack
-) -> OscPort | None:
-    """Open the doors that are shut unless asked for; the one for OSC."""
+async def _open_others(animator: Animator, doors: Doors, ports: dict[str, int], stack: AsyncExitStack) -> None:
+    """Open the doors that are shut unless asked for."""
     if doors.tcp_port is not None:
         with _naming("--tcp-port", doors.host, doors.tcp_port):
             server = await serve_tcp(animator, doors.host, doors.tcp_port)
         stack.callback(server.close)
         ports["tcp"] = server.sockets[0].getsockname()[1]
-    if doors.udp_port is None:
-        return None
-    with _naming("--osc-port", doors.host, doors.udp_port):
-        transport = await serve_udp(animator, doors.host, doors.udp_port)
-    stack.callback(transport.close)
-    ports["osc"] = transport.get_extra_info("sockname")[1]
-    protocol = transport.get_protocol()
-    return protocol if isinstance(protocol, OscPort) else None
+    if doors.udp_port is not None:
+        with _naming("--osc-port", doors.host, doors.udp_port):
+            transport = await serve_udp(animator, doors.host, doors.udp_port)
+        stack.callback(transport.close)
+        ports["osc"] = transport.get_extra_info("sockname")[1]
 
 
 @contextmanager
@@ -184,14 +180,21 @@ def allowed(doors: Doors, port: int) -> tuple[set[str], set[str]]:
     Raises:
         MienError: a name cannot be one.
     """
-    names, origins = set[str](), set[str]()
+    names, hosts, origins = {doors.host} - EVERYWHERE.keys(), set[str](), set[str]()
     if not doors.is_loopback:
-        names |= {doors.host, socket.gethostname()} - {"0.0.0.0", "::"}
+        names.add(socket.gethostname())
     for each in doors.allow:
-        if not each or (any(letter in each for letter in " /*\\") and "://" not in each):
+        scheme, slashes, host = each.rstrip("/").rpartition("://")
+        if not host or host[-1] == ":" or any(letter in host for letter in " /*\\?#@"):
             raise MienError(f"--allow {each!r}: want NAME, NAME:PORT or an origin such as http://localhost:3000")
-        (origins if "://" in each else names).add(each.rstrip("/"))
-    return {name if _has_port(name) else f"{_bracketed(name)}:{port}" for name in names}, origins
+        if slashes:
+            origins.add(f"{scheme}://{host}")
+        # A proxy with HTTPS hands on its own name.
+        if scheme == "https":
+            hosts.add(host)
+        elif not slashes:
+            names.add(host)
+    return hosts | {name if _has_port(name) else f"{_bracketed(name)}:{port}" for name in names}, origins
 
 
 def _has_port(name: str) -> bool:
@@ -203,7 +206,10 @@ def _bracketed(host: str) -> str:
 
 
 def _bind(host: str, port: int) -> socket.socket:
-    family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    try:
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+    except (OSError, UnicodeError) as error:
+        raise MienError(f"--host {host}: there is no such host here ({error})") from None
     return socket.create_server((host, port), family=family, backlog=256)
 
 

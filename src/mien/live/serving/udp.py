@@ -42,6 +42,7 @@ class OscPort(asyncio.DatagramProtocol):
         self._told = -1
         self._task = asyncio.create_task(self._run())
         animator.on_frame(self._follow)
+        animator.about["osc"] = self.report
 
     def report(self) -> dict[str, Any]:
         """The counts, for people."""

@@ -45,6 +45,11 @@ class VmcSender:
         self._socket.setblocking(False)
         self._address = address
         animator.on_frame(self._send)
+        animator.about["vmc"] = self.report
+
+    def report(self) -> dict[str, int]:
+        """The counts, for people."""
+        return {"sent": self.sent, "lost": self.lost}
 
     def close(self) -> None:
         """Send nothing any more."""

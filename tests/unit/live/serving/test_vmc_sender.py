@@ -12,6 +12,7 @@ from live_server import STILL, Plain
 from mien.core import UnknownNameError
 from mien.live import Session
 from mien.live.osc import decode_packet
+from mien.live.serving.about import describe
 from mien.live.serving.animator import Animator
 from mien.live.serving.udp import serve_udp
 from mien.live.serving.vmc_sender import VmcSender
@@ -41,6 +42,7 @@ def test_each_loop_is_sent_until_it_is_closed(listener):
     assert told["Blink_R"] < 0.05
     animator._step()
     assert (sender.sent, sender.lost) == (2, 0)
+    assert describe(animator)["vmc"] == {"sent": 2, "lost": 0}
     sender.close()
     animator._step()
     assert (sender.sent, sender.lost) == (2, 0)
