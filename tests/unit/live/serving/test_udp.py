@@ -13,6 +13,7 @@ from live_server import STILL, Plain
 
 from mien.live import Session
 from mien.live.osc import encode_call
+from mien.live.serving.about import describe
 from mien.live.serving.animator import Animator
 from mien.live.serving.udp import MOST_WAITING, serve_udp
 from support import face
@@ -63,7 +64,7 @@ def test_messages_act_and_are_not_answered():
         await place.send(encode_call("/mien/move/ELU", 0.25), encode_call("/mien/play", "smile"))
         place.animator._step()
         assert values(place, "ELU") == {"ELU": 0.25}
-        assert place.port.report() == {"received": 2, "ignored": 0, "last_ignored": ""}
+        assert describe(place.animator)["osc"] == {"received": 2, "ignored": 0, "last_ignored": ""}
         place.sender.setblocking(False)
         try:
             answer = place.sender.recv(1)
