@@ -41,6 +41,19 @@ AHEAD = 4
 
 ROW = "jaw.rotation"
 TOON_ROW = "MB"
+SLEEP = """
+import sys, time
+seconds, delays = float(sys.argv[1]), []
+due = start = time.perf_counter()
+while due < start + seconds:
+    due += 1 / 60
+    time.sleep(max(0.0, due - time.perf_counter()))
+    delays.append(time.perf_counter() - due)
+delays.sort()
+print(*(round(1000 * delays[int(share * (len(delays) - 1))], 3) for share in (0.5, 0.95, 0.99)))
+"""
+"""What wakes sixty times a second and does nothing else: how late the machine itself is."""
+
 SPIN = "import time\nend = time.monotonic() + {}\nwhile time.monotonic() < end: sum(range(1000))"
 
 
@@ -153,14 +166,16 @@ async def watch(server: Server, seen: Callable[[bytes], object]) -> None:
 
 
 def measure_loops(server: Server, seconds: float) -> None:
-    """Rate and delays of loops, while nobody disturbs them."""
+    """Rate and delays of loops, while nobody disturbs them; and what the machine does to a program that only sleeps."""
+    command = [sys.executable, "-c", SLEEP, str(seconds)]
     before, start = server.about()["loop"], time.perf_counter()
-    time.sleep(seconds)
+    p50, p95, p99 = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     about, lasted = server.about(), time.perf_counter() - start
     rate = (about["loop"] - before) / lasted
     delays = about["loops"]["delay_ms"]
     print(f"  {lasted:.1f} s: {rate:.4f} loops a second, error {100 * (rate / about['rate_hz'] - 1):+.3f} %")
     print(f"  a loop begins late by p50 {delays['p50']}, p95 {delays['p95']}, p99 {delays['p99']} ms")
+    print(f"  beside it, a program that only sleeps wakes late by p50 {p50}, p95 {p95}, p99 {p99} ms")
     print(f"  late by a loop or more: {about['loops']['late']}, dropped {about['loops']['dropped']}")
 
 
