@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -137,8 +138,14 @@ class Surface:
 
 def describe_surface(topology: Topology, scene: Scene, colored_by_polygon: bool) -> Surface:
     """The surface that subdivision makes of a topology, as ``render.plan`` lights it."""
-    fine, matrix, parents = _refine(topology, scene.subdivide)
-    plan = plan_shading(fine, scene.shading == "polygon", colored_by_polygon)
+    return _describe(topology, scene.subdivide, scene.shading == "polygon", scene.gloss, colored_by_polygon)
+
+
+# Other colours make another setup, of the same surface; to describe it takes longer than many loops.
+@lru_cache(maxsize=4)
+def _describe(topology: Topology, subdivide: int, flat: bool, gloss: float, colored_by_polygon: bool) -> Surface:
+    fine, matrix, parents = _refine(topology, subdivide)
+    plan = plan_shading(fine, flat, colored_by_polygon)
     corner_point, corner_node = plan.triangles.T, plan.triangle_front.astype(np.int64)
     polygon = fine.polygon_of_triangle[:, None]
     if colored_by_polygon:
@@ -168,7 +175,7 @@ def describe_surface(topology: Topology, scene: Scene, colored_by_polygon: bool)
         "triangles": triangles.reshape(-1),
     }
     small = {name: _smallest(array) for name, array in arrays.items()}
-    return Surface(_parts(fine, scene.gloss), small, fine.vertex_count, plan.vertex[plan.round], colored_by_polygon)
+    return Surface(_parts(fine, gloss), small, fine.vertex_count, plan.vertex[plan.round], colored_by_polygon)
 
 
 def _refine(topology: Topology, levels: int) -> tuple[Topology, SparseMatrix, Ints]:

@@ -191,6 +191,14 @@ def test_other_colours_get_a_setup_once_they_stay():
     assert encoder.encode(frame) == settled
 
 
+def test_the_surface_is_described_once_whatever_its_colours():
+    mesh, _ = shape_of("head", {})
+    surface = describe_surface(mesh.topology, SCENE, False)
+    assert describe_surface(mesh.topology, replace(SCENE, fov_deg=30.0), False) is surface
+    dull = describe_surface(mesh.topology, replace(SCENE, gloss=0.0), False)
+    assert {part["gloss"] for part in dull.parts} == {0.0} != {part["gloss"] for part in surface.parts}
+
+
 def test_what_a_mouth_shades_is_no_other_palette():
     encoder = encoder_of("head")
     _, frame = shape_of("head", OPEN)
