@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mien.core import MienError
-
 from . import options
 from .main import Interrupted, signals
 from .stages import Stages
@@ -200,6 +198,7 @@ async def _serve(animator: Animator, doors: Doors, speaker: Speaker | None, stag
 
 
 def _send_vmc(animator: Animator, target: str, names: str) -> VmcSender:
+    from mien.core import MienError
     from mien.live.serving.vmc_sender import VmcSender
 
     host, _, port = target.rpartition(":")
@@ -237,6 +236,8 @@ def _tell(animator: Animator, doors: Doors, opened: Opened, stages: Stages) -> N
 
 
 def _check_token(token: str) -> str:
+    from mien.core import MienError
+
     if not (len(token) >= 8 and token.isascii() and all(letter.isalnum() or letter in "-_" for letter in token)):
         raise MienError("--token: want at least 8 letters, digits, - or _")
     return token
@@ -244,6 +245,8 @@ def _check_token(token: str) -> str:
 
 def _parts(text: str) -> dict[str, float]:
     """Amounts of idle life, from a text such as ``blinks=0,sway=0.5``."""
+    from mien.core import MienError
+
     from . import settings
 
     found = {}

@@ -21,7 +21,7 @@ SUBROWS = 16
 
 
 def draw_plainly(drawing: Drawing, scene: Scene) -> NDArray[np.uint8]:
-    """(H, W, 4) sRGB picture with straight alpha: the canvas, centred, as large as the picture's size allows."""
+    """(H, W, 4) sRGB picture with straight alpha: the canvas, as large as its size allows, on its lower edge."""
     width, height = scene.size_px
     scale, left, bottom = place_canvas(drawing, scene.size_px)
 

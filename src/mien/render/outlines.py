@@ -36,10 +36,14 @@ class Outlines:
 
 
 def place_canvas(drawing: Drawing, size_px: tuple[int, int]) -> tuple[float, float, float]:
-    """Pixels a unit, and where the origin lies, pixels from the upper left: the canvas is centred, as large as fits."""
+    """Pixels a unit, and where the origin lies, pixels from the upper left.
+
+    The canvas is as large as fits, in the middle between the sides, and stands on the lower edge of the picture: what
+    lies below it, such as a hand that rests, is out of sight.
+    """
     width, height = size_px
     scale = min(width / drawing.size[0], height / drawing.size[1])
-    return scale, (width - scale * drawing.size[0]) / 2.0, (height + scale * drawing.size[1]) / 2.0
+    return scale, (width - scale * drawing.size[0]) / 2.0, float(height)
 
 
 def find_fillings(drawing: Drawing) -> Iterator[tuple[int, int]]:

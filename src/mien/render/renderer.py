@@ -112,7 +112,7 @@ class Renderer:
         return encode(reference.rasterise(triangles, self._camera, self._behind, light_samples, self.samples == 4))
 
     def draw_drawing(self, drawing: Drawing) -> Picture:
-        """(H, W, 4) sRGB picture, straight alpha: the canvas, centred, as large as the picture's size allows."""
+        """(H, W, 4) sRGB picture, straight alpha: the canvas, as large as its size allows, on its lower edge."""
         if self._rasteriser == "reference":
             return draw_plainly(drawing, self.scene)
         width, height = self.scene.size_px

@@ -152,13 +152,13 @@ def test_a_scribble_of_thousands_of_points_is_filled() -> None:
     assert whole[4:12, 4:12].min() > 0.9
 
 
-def test_canvas_is_fitted_and_centred_with_y_upwards() -> None:
+def test_canvas_is_fitted_and_stands_on_the_lower_edge_with_y_upwards() -> None:
     drawing = Drawing((2.0, 1.0), (Path("floor", (box(0, 0, 2, 0.5),), RED),))
     for rasteriser in RASTERISERS:
         picture = draw_drawing(drawing, Scene(size_px=(20, 20), background=CLEAR), rasteriser=rasteriser)
         rows = np.flatnonzero(picture[:, 10, 3])
-        assert (rows.min(), rows.max()) == (10, 14), "the lower half of a canvas 10 pixels high, in the middle"
-        assert (picture[12] == [255, 0, 0, 255]).all()
+        assert (rows.min(), rows.max()) == (15, 19), "the lower half of a canvas 10 pixels high, at the bottom"
+        assert (picture[17] == [255, 0, 0, 255]).all()
 
 
 def test_a_drawing_brings_its_own_background_which_a_scene_may_replace() -> None:

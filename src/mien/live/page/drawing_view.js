@@ -32,7 +32,8 @@ export class DrawingView {
     context.fillRect(0, 0, canvas.width, canvas.height);
     const [width, height] = frame.size;
     const scale = Math.min(canvas.width / width, canvas.height / height);
-    const [left, bottom] = [(canvas.width - scale * width) / 2, (canvas.height + scale * height) / 2];
+    // It stands on the lower edge: what lies below, such as a hand that rests, is out of sight.
+    const [left, bottom] = [(canvas.width - scale * width) / 2, canvas.height];
     const areas = frame.outlines.map((outline) => trace(outline, scale, left, bottom));
     for (const path of frame.paths) this.fill(path, areas, frame);
   }
