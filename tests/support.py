@@ -19,7 +19,10 @@ from mien.faces.head.lips import CONTACT_STATIONS
 from mien.faces.head.measured import archive
 
 ROOT = Path(__file__).parents[1]
-FACE_NAMES = tuple(name for name, _ in face_names())
+MASK = str(ROOT / "tests/unit/faces/keypose/mask.keypose")
+"""Half a face of 44 points in eleven phases."""
+
+FACE_NAMES = (*(name for name, _ in face_names()), MASK)
 
 
 @cache

@@ -55,7 +55,8 @@ class Topology:
 
     Polygon f has the corners ``corners[starts[f]:starts[f + 1]]``, anticlockwise seen from outside. A crease that
     must stay sharp is a pair of edges with vertices of their own at the same places ("doubled vertices"), or a
-    row of ``creases``. The parts cover all polygons in order.
+    row of ``creases``; a row of one vertex, twice, is a corner, which subdivision leaves where it is. The parts cover
+    all polygons in order.
     """
 
     vertex_count: int
@@ -146,12 +147,14 @@ class Mesh:
         points: (V, 3) m, head frame: x to the face's own left, y up, z forward.
         colors: (V, 3) a vertex or (F, 3) a polygon, linear RGB 0..1.
         normals: (V, 3) unit normals of the parts whose material is ``round``; other rows are ignored.
+        by_polygon: colours are a polygon's even where there are as many vertices as polygons.
     """
 
     topology: Topology
     points: Points
     colors: Points
     normals: Points | None = None
+    by_polygon: bool = False
 
     def __post_init__(self) -> None:
         vertices, polygons = self.topology.vertex_count, self.topology.polygon_count
@@ -166,7 +169,9 @@ class Mesh:
     def colored_by_polygon(self) -> bool:
         """Whether a colour belongs to a polygon (Parke's way) instead of a vertex."""
         topology = self.topology
-        return len(self.colors) == topology.polygon_count != topology.vertex_count
+        return len(self.colors) == topology.polygon_count and (
+            self.by_polygon or topology.polygon_count != topology.vertex_count
+        )
 
     def moved(self, points: Points) -> Mesh:
         """The mesh with other points."""
@@ -175,7 +180,9 @@ class Mesh:
     def keeping(self, polygons: NDArray[np.bool_]) -> Mesh:
         """The mesh with some of its polygons (F,) only; all its points stay."""
         colors = self.colors[polygons] if self.colored_by_polygon else self.colors
-        return replace(self, topology=self.topology.keeping(polygons), colors=colors)
+        return replace(
+            self, topology=self.topology.keeping(polygons), colors=colors, by_polygon=self.colored_by_polygon
+        )
 
     def without(self, parts: Iterable[str]) -> Mesh:
         """The mesh with some of its parts left out.

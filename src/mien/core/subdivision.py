@@ -23,6 +23,10 @@ Ints = NDArray[np.int64]
 Multiply = Callable[[SparseMatrix, Sequence[NDArray[np.float64]]], Sequence[NDArray[np.float64]]]
 
 
+CORNER = 3
+"""Sharp edges that make a vertex a corner."""
+
+
 @dataclass(frozen=True, eq=False)
 class Refinement:
     """A finer topology and how its values come from the coarse ones.
@@ -58,7 +62,7 @@ def subdivide(mesh: Mesh, levels: int, multiply: Multiply = apply_to_each) -> Me
         else:
             points, colors = multiply(fine.matrix, (mesh.points, mesh.colors))
         normals = None if mesh.normals is None else _keep_rows(mesh.normals, fine.topology.vertex_count)
-        mesh = Mesh(fine.topology, points, colors, normals)
+        mesh = Mesh(fine.topology, points, colors, normals, mesh.colored_by_polygon)
     return mesh
 
 
@@ -90,6 +94,7 @@ def refine(topology: Topology) -> Refinement:
 
     faces_of_edge = np.bincount(edge, minlength=edge_count)
     creased = np.isin(_keys(edges, count), _keys(np.sort(topology.creases, axis=1), count))
+    kept = topology.creases[topology.creases[:, 0] == topology.creases[:, 1]]
     sharp = (faces_of_edge != 2) | creased
 
     entries = _Entries()
@@ -99,12 +104,13 @@ def refine(topology: Topology) -> Refinement:
     entries.add(still, still, np.ones(len(still)))
     _face_points(entries, face_vertex, start, face_size[face])
     _edge_points(entries, count + face_count + np.arange(edge_count), edges, edge, face, face_size, start, sharp)
-    _vertex_points(entries, count, edges, sharp, start, face, face_size)
+    _vertex_points(entries, count, edges, sharp, start, face, face_size, kept[:, 0])
 
     total = count + face_count + edge_count
     matrix = SparseMatrix.from_entries(*entries.arrays(), shape=(total, count))
     middle = count + face_count + np.flatnonzero(creased)
     creases = np.stack([edges[creased, 0], middle, middle, edges[creased, 1]], axis=1).reshape(-1, 2)
+    creases = np.concatenate([creases, kept])
     fine, parents = _fine_topology(topology, corner_chosen, face_vertex, edge_vertex, total, creases)
     return Refinement(fine, matrix, parents)
 
@@ -172,13 +178,15 @@ def _vertex_points(
     start: Ints,
     face: Ints,
     face_size: Ints,
+    kept: Ints,
 ) -> None:
     sharp_edges = np.bincount(edges[sharp].ravel(), minlength=count)
+    sharp_edges[kept] = CORNER
     valence = np.bincount(edges.ravel(), minlength=count)
     touched = np.flatnonzero(valence)
 
     crease = sharp_edges == 2
-    corner = sharp_edges > 2
+    corner = (sharp_edges > 2) & (valence > 0)
     smooth = (sharp_edges < 2) & (valence > 0)
 
     corners = np.flatnonzero(corner)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,7 +111,7 @@ def make_triangles(
     topology = mesh.topology
     plan = plan_shading(topology, scene.shading in ("polygon", "wire"), mesh.colored_by_polygon)
     if scene.shading == "wire":
-        mesh = Mesh(topology, mesh.points, paper_colors(mesh.colors), mesh.normals)
+        mesh = replace(mesh, colors=paper_colors(mesh.colors))
     placed = place(mesh.points, plan, camera)
     points = placed.points
     values, value_of = light(mesh, points, plan, scene, placed.drawn)

@@ -59,7 +59,8 @@ class CreasedSkin:
 def creased_skin(archive: Archive) -> CreasedSkin:
     """The skin cut open along the creases."""
     count = len(archive.mirror)
-    quads, doubled = double_creases(archive.quads, crease_edges(archive), count)
+    rows, doubled = double_creases(archive.quads.tolist(), crease_edges(archive), count)
+    quads = np.array(rows, dtype=np.int64)
     source = np.concatenate([np.arange(count), doubled])
     by_corners = {frozenset(row): number for number, row in enumerate(archive.quads.tolist())}
     mirror = np.zeros(len(source), dtype=np.int64)

@@ -1,0 +1,148 @@
+"""From numbered points to a topology: the mirror image of a half, doubled vertices along creases.
+
+Source: Parke 1972, "Representation of the face".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core import Part, Topology, exact
+from mien.core.creases import double_creases
+from mien.core.mesh import Ints, Points
+
+from .records import Keypose
+
+MIRROR = np.array([-1.0, 1.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Skin:
+    """The polygons of a whole face.
+
+    Attributes:
+        topology: anticlockwise, with doubled vertices.
+        colors: (F, 3) linear RGB of the polygons; read-only.
+        point: (V,) the measured point, from 0, of each vertex.
+        sign: (V,) -1 for the mirror image of its point, else 1.
+        mirror: (V,) the vertex that each becomes in the mirror, -1 where the face is not mirrored.
+    """
+
+    topology: Topology
+    colors: Points
+    point: Ints
+    sign: NDArray[np.float64]
+    mirror: Ints
+
+    def places(self, measured: Points) -> Points:
+        """(…, V, 3) m of the vertices, of measured points (…, N, 3)."""
+        out = measured[..., self.point, :].copy()
+        out[..., 0] *= self.sign
+        return out
+
+
+def make_skin(keypose: Keypose) -> Skin:
+    """The whole face that the files describe."""
+    rows, parts, colors = _polygons(keypose)
+    twin = _twins(keypose)
+    lines = [[number - 1 for number in line] for line in keypose.topology.creases]
+    if keypose.mirror:
+        lines += [[int(twin[number]) for number in line] for line in lines]
+    edges = [pair for line in lines for pair in pairwise(line)]
+    count = keypose.topology.point_count
+    whole = int(twin.max()) + 1
+    cut, doubled = double_creases(rows, edges, whole)
+    source = np.concatenate([np.arange(whole), doubled])
+    point, sign = np.arange(whole), np.ones(whole)
+    point[twin] = np.arange(count)
+    sign[count:] = -1.0
+    topology = Topology(
+        len(source),
+        np.array([vertex for row in cut for vertex in row], dtype=np.int64),
+        np.cumsum([0, *map(len, cut)]),
+        tuple(parts),
+        _corners(rows, edges, source),
+    )
+    shades = np.array(colors)
+    shades.flags.writeable = False
+    mirror = _mirrored(cut, parts, len(source)) if keypose.mirror else np.full(len(source), -1)
+    return Skin(topology, shades, point[source], sign[source], mirror)
+
+
+def split_left(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(V,) how much of what the left half does each vertex takes part in, of places x, m: a half on the midline."""
+    width = max(float(np.abs(x).max(initial=0.0)), 1e-6)
+    return exact.smoothstep(0.5 + x / (2.0 * BLEND_SHARE * width))
+
+
+BLEND_SHARE = 0.12
+"""Half the width of the strip in which the halves share what one of them does, as a share of half the face's width."""
+
+
+def _polygons(keypose: Keypose) -> tuple[list[list[int]], list[Part], list[list[float]]]:
+    """Vertices of all polygons, the parts, and linear colours; of each part the measured half, then its image."""
+    twin = _twins(keypose)
+    rows: list[list[int]] = []
+    parts: list[Part] = []
+    colors: list[list[float]] = []
+    for part in keypose.topology.parts:
+        first = len(rows)
+        left = [[number - 1 for number in polygon.points] for polygon in part.polygons]
+        rows += [row[::-1] for row in left]
+        tints = [linear_color(polygon.color) for polygon in part.polygons]
+        colors += tints
+        if keypose.mirror:
+            rows += [[int(twin[number]) for number in row] for row in left]
+            colors += tints
+        if len(rows) > first:
+            parts.append(Part(part.name, first, len(rows), part.material))
+    return rows, parts, colors
+
+
+def _twins(keypose: Keypose) -> Ints:
+    """(N,) vertex of the mirror image of each point; its own on the midline, and where nothing is mirrored."""
+    twin = np.arange(keypose.topology.point_count)
+    if keypose.mirror:
+        aside = np.flatnonzero(~keypose.on_midline)
+        twin[aside] = len(twin) + np.arange(len(aside))
+    return twin
+
+
+def _corners(rows: Sequence[Sequence[int]], edges: Sequence[tuple[int, int]], source: Ints) -> Ints:
+    """(K, 2) rows of ``Topology.creases`` that keep what doubles a vertex together where creases branch or run out.
+
+    There the curves along which the surface is cut would turn into different curves on their two sides.
+    """
+    sides: dict[frozenset[int], int] = {}
+    for row in rows:
+        for pair in zip(row, [*row[1:], row[0]], strict=True):
+            sides[frozenset(pair)] = sides.get(frozenset(pair), 0) + 1
+    creased = {frozenset(edge) for edge in edges}
+    sharp: dict[int, int] = {}
+    for edge in creased | {edge for edge, count in sides.items() if count == 1}:
+        for vertex in edge:
+            sharp[vertex] = sharp.get(vertex, 0) + 1
+    kept = [vertex for vertex in sorted({v for edge in creased for v in edge}) if sharp[vertex] > 2]
+    numbers = np.flatnonzero(np.isin(source, kept))
+    return np.stack([numbers, numbers], axis=1)
+
+
+def _mirrored(cut: Sequence[Sequence[int]], parts: Sequence[Part], count: int) -> Ints:
+    """(V,) of vertices, from the polygons: the image of a polygon goes around it the other way."""
+    mirror = np.zeros(count, dtype=np.int64)
+    for part in parts:
+        half = (part.last - part.first) // 2
+        for left, right in zip(cut[part.first : part.first + half], cut[part.first + half : part.last], strict=True):
+            for one, other in zip(left, right[::-1], strict=True):
+                mirror[one], mirror[other] = other, one
+    return mirror
+
+
+def linear_color(code: str) -> list[float]:
+    """Linear RGB 0..1 of ``#rrggbb``."""
+    return [exact.srgb_to_linear(int(code[k : k + 2], 16) / 255.0) for k in (1, 3, 5)]
