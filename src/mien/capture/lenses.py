@@ -1,0 +1,86 @@
+"""Which terms of a lens the data can bear to be asked for, and what is assumed about the others.
+
+A term that is let go still has a wide assumption (the principal point is near the middle, the bend at the corner of the
+picture some per cent), so that no lens runs away; it is let go only where the data tell more than the assumption.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mien.capture.networks import Bools, Network
+from mien.capture.refining import Refined
+from mien.core.mesh import Points
+
+PRINCIPAL_SIGMA = 0.05
+"""Of the greater side: how far from the middle principal points lie."""
+BEND_SIGMA = 0.15
+"""Of its radius: how far a corner of the picture is moved by k1, or by k2."""
+FOCAL_SIGMA = 0.5
+"""Of itself: how far the focal length may be from the guess."""
+TOLD = 0.25
+"""Part of the assumed variance that may be left of a term that is let go."""
+EVIDENT = 9.0
+"""χ² by which k2 must differ from 0: it may mimic k1 otherwise."""
+ALL_TERMS = np.array([True, True, True, True, True])
+FIRST_TERMS = np.array([True, False, False, True, False])
+
+
+def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
+    """(L, 5) what is assumed about lenses, and standard deviations of that, from a guess of their focal lengths."""
+    means, sigmas = np.zeros_like(lenses), np.ones_like(lenses)
+    means[:, 0], means[:, 1:3] = lenses[:, 0], network.sizes / 2.0
+    corner = np.linalg.norm(network.sizes, axis=1) / 2.0 / lenses[:, 0]
+    sigmas[:, 0] = FOCAL_SIGMA * lenses[:, 0]
+    sigmas[:, 1] = sigmas[:, 2] = PRINCIPAL_SIGMA * network.sizes.max(axis=1)
+    sigmas[:, 3], sigmas[:, 4] = BEND_SIGMA / corner**2, BEND_SIGMA / corner**4
+    return means, sigmas
+
+
+def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
+    """(L, 5) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
+    columns = refined.equations.layout.lenses
+    left = np.ones(columns.shape)
+    free = columns >= 0
+    left[free] = np.diag(cameras)[columns[free]] / refined.problem.lens_sigmas[free] ** 2
+    return left
+
+
+def borne_bends(refined: Refined, cameras: Points, scale: float) -> Bools:
+    """(L,) whether k2 is told by the data, and is not 0."""
+    columns = refined.equations.layout.lenses[:, 4]
+    variances = np.where(columns >= 0, np.diag(cameras)[columns], np.inf) * scale
+    evident = refined.state.lenses[:, 4] ** 2 > EVIDENT * variances
+    return evident & (left_of_assumptions(refined, cameras)[:, 4] < TOLD)
+
+
+def borne_terms(refined: Refined, cameras: Points) -> Bools:
+    """(L, 5) terms among those let go that the data tell; the focal length always stays let go."""
+    told = left_of_assumptions(refined, cameras) < TOLD
+    told[:, 1] = told[:, 2] = told[:, 1] & told[:, 2]
+    told[:, 0] = True
+    return told & refined.problem.free_terms
+
+
+def freed_names(terms: Bools) -> tuple[str, ...]:
+    """Names of (5,) terms as ``Lens.freed`` has them."""
+    flags = (("focal", terms[0]), ("principal", terms[1]), ("k1", terms[3]), ("k2", terms[4]))
+    return tuple(name for name, free in flags if free)
+
+
+def remarks_on_lenses(network: Network, refined: Refined, cameras: Points) -> list[str]:
+    """What was assumed about lenses, a sentence each."""
+    remarks = []
+    assumed = {"principal": "its principal point for the middle", "k1": "its bend (k1) for none", "k2": "k2 for 0"}
+    left = left_of_assumptions(refined, cameras)
+    for number in np.unique(network.lens_of[refined.problem.active]):
+        terms = refined.problem.free_terms[number]
+        held = [text for name, text in assumed.items() if name not in freed_names(terms)]
+        if held:
+            remarks.append(f"camera {network.lenses[number]!r}: took {' and '.join(held)}; the clicks do not tell more")
+        if left[number, 0] > TOLD:
+            remarks.append(
+                f"camera {network.lenses[number]!r}: the clicks hardly tell its focal length"
+                " — add references at more depths, or photographs of the board held askew"
+            )
+    return remarks

@@ -1,0 +1,263 @@
+"""From a survey to cameras and points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mien.capture.covariances import Covariances
+from mien.capture.lenses import (
+    ALL_TERMS,
+    FIRST_TERMS,
+    assumptions,
+    borne_bends,
+    borne_terms,
+    freed_names,
+    remarks_on_lenses,
+)
+from mien.capture.networks import Bools, Network, State, connect
+from mien.capture.projecting import cross_matrices, see
+from mien.capture.records import Camera, Residual, SolvedPoint, Solution, Survey
+from mien.capture.refining import Problem, Refined, refine
+from mien.capture.snooping import CONTRADICTED, Judgement, judge, worst
+from mien.capture.starting import FEWEST_PLACED, begin
+from mien.core.errors import UnknownNameError
+from mien.core.mesh import Points
+
+METHODS = ("metric", "appendix-c")
+Report = Callable[[str], None]
+
+
+def solve(survey: Survey, *, method: str = "metric", report: Report | None = None) -> Solution:
+    """Cameras and points of a survey, with covariances, residuals and suspected mis-clicks.
+
+    Args:
+        survey: what was clicked, and references.
+        method: ``metric`` (places, lenses and points refined together), or ``appendix-c`` (Parke 1974 as he wrote it).
+        report: is told what is being done.
+
+    Raises:
+        MienError: too little was clicked, or it contradicts itself; it says what to add or mend.
+    """
+    if method not in METHODS:
+        raise UnknownNameError("method", method, METHODS)
+    say = report or _say_nothing
+    return _solve_metric(survey, say)
+
+
+def _say_nothing(_text: str) -> None:
+    pass
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """A refined network without the observations that were left out."""
+
+    refined: Refined
+    judgement: Judgement
+    left_out: Bools
+
+
+def _solve_metric(survey: Survey, say: Report) -> Solution:
+    network = connect(survey)
+    say("placing photographs")
+    state, roots = begin(network)
+    means, sigmas = assumptions(network, state.lenses)
+    held = np.zeros(len(network.bodies), dtype=bool)
+    held[roots] = True
+    left_out = np.zeros(len(network.pictures), dtype=bool)
+    problem = Problem(
+        network, _active(network, state, left_out), _terms(network, FIRST_TERMS), held, means, sigmas
+    )
+    say("refining cameras and points")
+    first = refine(problem, state, rounds=30, close=1e-4)
+    solved = _clean(replace(problem, free_terms=_terms(network, ALL_TERMS)), first.state, left_out, say)
+    say("choosing what the lenses can be asked for")
+    solved = _choose_terms(solved, say)
+    return _solution(solved)
+
+
+def _terms(network: Network, terms: Bools) -> Bools:
+    return np.tile(terms, (len(network.lenses), 1))
+
+
+def _active(network: Network, state: State, left_out: Bools) -> Bools:
+    """(N,) observations that take part: placed, not left out, of points that are told twice, of photographs told enough."""
+    active = state.placed(network) & ~left_out
+    while True:
+        before = active.sum()
+        seen = np.bincount(network.point_of[active], minlength=len(network.points))
+        active &= network.known[network.point_of] | (seen[network.point_of] >= 2)
+        shown = np.bincount(network.station_of[active], minlength=len(network.stations))
+        active &= shown[network.station_of] >= FEWEST_PLACED
+        if active.sum() == before:
+            return active
+
+
+def _clean(problem: Problem, state: State, left_out: Bools, say: Report) -> _Solved:
+    """A solution without mis-clicks: the worst are left out, and those that agree in the end are taken back."""
+    network, left_out = problem.network, left_out.copy()
+    taken_back = False
+    while True:
+        active = _active(network, state, left_out)
+        refined = refine(replace(problem, active=active), state)
+        state, judgement = refined.state, judge(refined)
+        wrong = worst(network, refined, judgement)
+        if len(wrong):
+            say(f"leaving out {int(left_out.sum()) + len(wrong)} suspects")
+            left_out[wrong] = True
+            continue
+        if taken_back or not left_out.any():
+            return _Solved(refined, judgement, left_out)
+        taken_back = True
+        again = left_out & _agrees(network, state, judgement.scale)
+        if not again.any():
+            return _Solved(refined, judgement, left_out)
+        left_out &= ~again
+
+
+def _agrees(network: Network, state: State, scale: float) -> Bools:
+    """(N,) whether observations of points that others still tell lie where those have them."""
+    off = _off(network, state) / network.sigmas[:, None]
+    with np.errstate(invalid="ignore"):
+        return (off * off).sum(axis=1) < CONTRADICTED * scale
+
+
+def _off(network: Network, state: State) -> Points:
+    """(N, 2) px seen less solved; NaN where not placed, or behind the camera."""
+    station = network.station_of
+    frame = np.einsum("nij,nj->ni", state.rotations[station], state.world_places(network) - state.places[station])
+    frame[~(frame[:, 2] > 0.0)] = np.nan
+    return network.pictures - see(state.lenses[network.lens_of], frame)
+
+
+def _choose_terms(solved: _Solved, say: Report) -> _Solved:
+    """A solution in which lens terms that the data do not tell are held at what is assumed."""
+    problem = solved.refined.problem
+    terms = problem.free_terms.copy()
+    terms[:, 4] &= borne_bends(solved.refined, solved.judgement.covariances.cameras, solved.judgement.scale)
+    if (terms != problem.free_terms).any():
+        problem, state = _hold(problem, solved.refined.state, terms)
+        solved = _clean(problem, state, solved.left_out, say)
+    terms = borne_terms(solved.refined, solved.judgement.covariances.cameras)
+    if (terms != solved.refined.problem.free_terms).any():
+        problem, state = _hold(solved.refined.problem, solved.refined.state, terms)
+        solved = _clean(problem, state, solved.left_out, say)
+    return solved
+
+
+def _hold(problem: Problem, state: State, terms: Bools) -> tuple[Problem, State]:
+    """The problem of fewer lens terms, with the others at what is assumed."""
+    state = state.copy()
+    state.lenses[~terms] = problem.lens_means[~terms]
+    return replace(problem, free_terms=terms), state
+
+
+def _solution(solved: _Solved) -> Solution:
+    refined, judgement = solved.refined, solved.judgement
+    network, state = refined.problem.network, refined.state
+    active = refined.problem.active
+    covariances = judgement.covariances
+    cost_per_degree = refined.equations.cost / judgement.redundancy if judgement.redundancy > 0.5 else 1.0
+    factor = cost_per_degree if judgement.scale != 1.0 else 1.0
+    photos = sorted(set(network.photo_of[active].tolist()))
+    cameras: dict[str, Camera] = {
+        network.photo_name(photo): state.camera(
+            network, photo, freed_names(refined.problem.free_terms[network.lens_at[photo]])
+        )
+        for photo in photos
+    }
+    residuals = _residuals(network, refined, judgement)
+    out = [number for number in np.nonzero(solved.left_out)[0] if number in residuals]
+    suspects = sorted((residuals[number] for number in out), key=lambda each: -each.statistic)
+    remarks = [*_remarks_on_missing(network, active, solved.left_out)]
+    remarks += remarks_on_lenses(network, refined, covariances.cameras)
+    if factor != 1.0:
+        remarks.append(
+            f"clicks scatter {np.sqrt(factor):.2g} times as far as their sigmas say: covariances count with that"
+        )
+    return Solution(
+        survey=network.survey,
+        cameras=cameras,
+        points=_points(network, refined, covariances, factor),
+        residuals=tuple(residuals[number] for number in sorted(residuals)),
+        suspects=tuple(suspects),
+        chi2_per_dof=cost_per_degree,
+        remarks=tuple(remarks),
+    )
+
+
+def _residuals(network: Network, refined: Refined, judgement: Judgement) -> dict[int, Residual]:
+    """By number of the observation; those of what could not be placed are missing."""
+    off = _off(network, refined.state)
+    statistics = (off * off).sum(axis=1) / network.sigmas**2
+    statistics[refined.equations.layout.order] = judgement.statistics
+    statistics /= judgement.scale
+    return {
+        number: Residual(seen, float(off[number, 0]), float(off[number, 1]), float(statistics[number]))
+        for number, seen in enumerate(network.survey.observations)
+        if np.isfinite(off[number]).all()
+    }
+
+
+def _points(
+    network: Network, refined: Refined, covariances: Covariances, factor: float
+) -> dict[tuple[str, str], SolvedPoint]:
+    """Measured points and references at each moment that they are seen at."""
+    state, layout = refined.state, refined.equations.layout
+    world = state.world_places(network)
+    found: dict[tuple[str, str], tuple[int, list[str]]] = {}
+    for number in np.nonzero(refined.problem.active)[0]:
+        photograph = network.survey.photographs[network.photo_of[number]]
+        key = (photograph.moment, network.survey.observations[number].point)
+        found.setdefault(key, (int(number), []))[1].append(photograph.name)
+    points = {}
+    for (moment, name), (number, photos) in sorted(found.items()):
+        point, body = network.point_of[number], network.body_of[number]
+        rotation = state.body_rotations[body]
+        rows = np.zeros((3, layout.columns))
+        if layout.bodies[body, 0] >= 0:
+            rows[:, layout.bodies[body, :3]] = -cross_matrices(rotation @ state.points[point])
+            rows[:, layout.bodies[body, 3:]] = np.eye(3)
+        own, alone = layout.points[point], np.zeros((3, 3))
+        if own >= 0:
+            rows -= rotation @ covariances.carried[own]
+            alone = rotation @ covariances.alone[own] @ rotation.T
+        covariance = factor * (rows @ covariances.cameras @ rows.T + alone)
+        kind = "reference" if network.known[point] else "measured"
+        points[moment, name] = SolvedPoint(
+            name, moment, world[number].copy(), (covariance + covariance.T) / 2.0, tuple(photos), kind
+        )
+    return points
+
+
+def _remarks_on_missing(network: Network, active: Bools, left_out: Bools) -> list[str]:
+    """Photographs and points that got no place."""
+    remarks = []
+    shown = set(network.photo_of[active].tolist())
+    for photo, photograph in enumerate(network.survey.photographs):
+        if photo not in shown:
+            remarks.append(
+                f"photograph {photograph.name!r} was left out: it shows too few points of known place"
+                " — click six references in it, or four of a camera that other photographs tell"
+            )
+    placed = set(network.point_of[active].tolist())
+    for point in sorted(set(network.point_of.tolist()) - placed):
+        moment, name = network.points[point]
+        if network.known[point]:
+            continue
+        views = (network.point_of == point) & np.isin(network.photo_of, list(shown))
+        if (views & left_out).any():
+            remarks.append(
+                f"point {name!r} ({moment}) was left out: its clicks contradict one another — click it again"
+            )
+        elif views.sum() < 2:
+            remarks.append(
+                f"point {name!r} ({moment}) was left out: it is seen in {views.sum()} of the placed photographs"
+                " — click it in another one"
+            )
+        else:
+            remarks.append(f"point {name!r} ({moment}) was left out: its rays do not meet before the cameras")
+    return remarks
