@@ -34,9 +34,7 @@ def homogeneous_matrix(places: Points, pictures: Points) -> Points:
     near = np.column_stack([places, np.ones(len(places))]) @ move_place.T
     seen = np.column_stack([pictures, np.ones(len(pictures))]) @ move_picture.T
     zero = np.zeros_like(near)
-    rows = np.concatenate(
-        [np.hstack([near, zero, -seen[:, :1] * near]), np.hstack([zero, near, -seen[:, 1:2] * near])]
-    )
+    rows = np.concatenate([np.hstack([near, zero, -seen[:, :1] * near]), np.hstack([zero, near, -seen[:, 1:2] * near])])
     _, strengths, directions = np.linalg.svd(rows)
     if strengths[10] < 1e-9 * strengths[0]:
         raise MienError(
@@ -79,7 +77,7 @@ def metric_camera(matrix: Points, places: Points) -> Camera | None:
     lens = Lens(
         focal_px=float(np.sqrt(upper[0, 0] * upper[1, 1])), principal_px=(float(upper[0, 2]), float(upper[1, 2]))
     )
-    return Camera(lens=lens, rotation=rotation, place=place)
+    return Camera(lens=lens, rotation=rotation, place=np.asarray(place, dtype=np.float64))
 
 
 def _upper_times_rotation(matrix: Points) -> tuple[Points, Points]:

@@ -92,9 +92,9 @@ class State:
 
     def placed(self, network: Network) -> Bools:
         """(N,) observations of which station, body and point have numbers."""
-        stations = np.isfinite(self.places).all(axis=1)
-        bodies = np.isfinite(self.body_places).all(axis=1)
-        points = np.isfinite(self.points).all(axis=1)
+        stations = np.isfinite(self.places[:, 0])
+        bodies = np.isfinite(self.body_places[:, 0])
+        points = np.isfinite(self.points[:, 0])
         return stations[network.station_of] & bodies[network.body_of] & points[network.point_of]
 
     def world_places(self, network: Network) -> Points:
@@ -229,6 +229,6 @@ def _lens_sizes(photographs: Sequence[Photograph], lenses: Sequence[str]) -> Poi
         if before != each.size_px:
             raise MienError(
                 f"camera {each.camera!r}: photograph {each.name!r} is {each.size_px[0]} × {each.size_px[1]} px, others"
-                f" of it are {before[0]} × {before[1]} — give it a camera name of its own (another crop is another lens)"
+                f" of it are {before[0]} × {before[1]} — give it a camera of its own (another crop is another lens)"
             )
     return np.array([sizes[name] for name in lenses], dtype=np.float64).reshape(-1, 2)

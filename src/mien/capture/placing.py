@@ -38,7 +38,7 @@ class Pose:
 
 
 def three_point_poses(places: Points, directions: Points) -> tuple[Points, Points, NDArray[np.int64]]:
-    """Rotations (M, 3, 3) and places (M, 3) from which three places are seen along three directions, and of which triple.
+    """Rotations (M, 3, 3) and places (M, 3) m to see three places along three directions from, and of which triple.
 
     Args:
         places: (T, 3, 3) m, three points of each triple.

@@ -49,7 +49,7 @@ def see(lenses: Points, frame: Points) -> Points:
 
 
 def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
-    """What ``see`` gives (N, 2), and how it changes with the lens (N, 2, 5) and with the place in the frame (N, 2, 3)."""
+    """What ``see`` gives (N, 2), and its slopes by the lens (N, 2, 5) and by the place in the frame (N, 2, 3)."""
     inverse = 1.0 / frame[:, 2]
     directions = frame[:, :2] * inverse[:, None]
     square = (directions * directions).sum(axis=1)
@@ -71,14 +71,14 @@ def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
 
 
 def fold(k1: float, k2: float) -> float:
-    """The radius of a direction beyond which the radial terms would turn the picture back; infinite where they do not."""
+    """The radius of a direction beyond which radial terms turn the picture back; infinite where they do not."""
     roots = np.roots([5.0 * k2, 3.0 * k1, 1.0]) if k2 else np.array([-1.0 / (3.0 * k1)]) if k1 else np.empty(0)
     squares = [float(root.real) for root in roots if abs(root.imag) < 1e-12 and root.real > 0.0]
     return float(np.sqrt(min(squares))) if squares else np.inf
 
 
 def undistort(lens: Lens, pictures: Points) -> Points:
-    """(N, 2) directions (x/z, y/z) that are seen at (N, 2) px; beyond the fold of the radial terms, those at the fold."""
+    """(N, 2) directions (x/z, y/z) that are seen at (N, 2) px; beyond the ``fold`` those at it."""
     seen = (np.asarray(pictures, dtype=np.float64) - lens.principal_px) / lens.focal_px
     wanted = np.hypot(seen[:, 0], seen[:, 1])
     limit = fold(lens.k1, lens.k2)

@@ -9,7 +9,8 @@ synthesis", section 6; damping after Marquardt 1963.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -102,7 +103,6 @@ class Refined:
     problem: Problem
     state: State
     equations: Equations
-    rounds: int = field(default=0)
 
 
 def lay_out(problem: Problem) -> Layout:
@@ -128,12 +128,16 @@ def lay_out(problem: Problem) -> Layout:
     free_points = seen[network.loose[seen] > 0.0]
     points[free_points] = np.arange(len(free_points))
     order = np.nonzero(active)[0]
-    keys = np.stack([network.lens_of[order], network.station_of[order], network.body_of[order], network.photo_of[order]])
+    keys = np.stack(
+        [network.lens_of[order], network.station_of[order], network.body_of[order], network.photo_of[order]]
+    )
     order = order[np.lexsort(keys)]
-    keys = np.stack([network.lens_of[order], network.station_of[order], network.body_of[order], network.photo_of[order]])
+    keys = np.stack(
+        [network.lens_of[order], network.station_of[order], network.body_of[order], network.photo_of[order]]
+    )
     ends = np.nonzero((keys[:, 1:] != keys[:, :-1]).any(axis=0))[0] + 1
     edges = [0, *ends.tolist(), len(order)] if len(order) else [0]
-    groups = tuple(slice(first, last) for first, last in zip(edges[:-1], edges[1:], strict=True))
+    groups = tuple(slice(first, last) for first, last in pairwise(edges))
     return Layout(lenses, stations, bodies, points, counter, free_points, groups, order)
 
 
@@ -235,18 +239,18 @@ def equate(problem: Problem, state: State, layout: Layout) -> Equations:
         if len(inside):
             tie = np.einsum("nki,nkc->nic", by_point[group][inside], by_columns[group][inside])
             kept = columns >= 0
-            ties[here[inside][:, None, None], np.arange(3)[None, :, None], columns[kept][None, None, :]] += tie[:, :, kept]
-    inside = numbers >= 0
+            ties[here[inside][:, None, None], np.arange(3)[None, :, None], columns[kept][None, None, :]] += tie[
+                :, :, kept
+            ]
     points, point_right = np.zeros((free, 3, 3)), np.zeros((free, 3))
-    np.add.at(points, numbers[inside], np.einsum("nki,nkj->nij", by_point[inside], by_point[inside]))
-    np.add.at(point_right, numbers[inside], np.einsum("nki,nk->ni", by_point[inside], off[inside]))
+    tied = np.nonzero(numbers >= 0)[0]
+    np.add.at(points, numbers[tied], np.einsum("nki,nkj->nij", by_point[tied], by_point[tied]))
+    np.add.at(point_right, numbers[tied], np.einsum("nki,nk->ni", by_point[tied], off[tied]))
     cameras, camera_right, ties = cameras[:count, :count], camera_right[:count], ties[:, :, :count]
     _assume(problem, state, layout, cameras, camera_right, points, point_right)
     chi2 = float((off * off).sum())
     cost = chi2 + _assumed_cost(problem, state, layout)
-    return Equations(
-        layout, cost, chi2, off, by_columns, by_point, cameras, ties, points, camera_right, point_right
-    )
+    return Equations(layout, cost, chi2, off, by_columns, by_point, cameras, ties, points, camera_right, point_right)
 
 
 def _assume(
@@ -324,8 +328,8 @@ def refine(problem: Problem, state: State, *, rounds: int = ROUNDS, close: float
     """
     layout = lay_out(problem)
     equations = equate(problem, state, layout)
-    damping, count = 1e-4, 0
-    for count in range(1, rounds + 1):
+    damping = 1e-4
+    for _ in range(rounds):
         taken = None
         for _ in range(12):
             try:
@@ -346,4 +350,4 @@ def refine(problem: Problem, state: State, *, rounds: int = ROUNDS, close: float
         state = taken
         damping = max(damping * 0.1, 1e-12)
         equations = equate(problem, state, layout)
-    return Refined(problem, state, equations, count)
+    return Refined(problem, state, equations)

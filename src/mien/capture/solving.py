@@ -19,14 +19,14 @@ from mien.capture.lenses import (
 )
 from mien.capture.networks import Bools, Network, State, connect
 from mien.capture.projecting import cross_matrices, see
-from mien.capture.records import Camera, Residual, SolvedPoint, Solution, Survey
+from mien.capture.records import Camera, Residual, Solution, SolvedPoint, Survey
 from mien.capture.refining import Problem, Refined, refine
 from mien.capture.snooping import CONTRADICTED, Judgement, judge, worst
 from mien.capture.starting import FEWEST_PLACED, begin
 from mien.core.errors import UnknownNameError
 from mien.core.mesh import Points
 
-METHODS = ("metric", "appendix-c")
+METHODS = ("metric",)
 Report = Callable[[str], None]
 
 
@@ -68,9 +68,7 @@ def _solve_metric(survey: Survey, say: Report) -> Solution:
     held = np.zeros(len(network.bodies), dtype=bool)
     held[roots] = True
     left_out = np.zeros(len(network.pictures), dtype=bool)
-    problem = Problem(
-        network, _active(network, state, left_out), _terms(network, FIRST_TERMS), held, means, sigmas
-    )
+    problem = Problem(network, _active(network, state, left_out), _terms(network, FIRST_TERMS), held, means, sigmas)
     say("refining cameras and points")
     first = refine(problem, state, rounds=30, close=1e-4)
     solved = _clean(replace(problem, free_terms=_terms(network, ALL_TERMS)), first.state, left_out, say)
@@ -84,7 +82,7 @@ def _terms(network: Network, terms: Bools) -> Bools:
 
 
 def _active(network: Network, state: State, left_out: Bools) -> Bools:
-    """(N,) observations that take part: placed, not left out, of points that are told twice, of photographs told enough."""
+    """(N,) observations that take part: placed, not left out, of points and photographs that enough tell of."""
     active = state.placed(network) & ~left_out
     while True:
         before = active.sum()
@@ -170,7 +168,7 @@ def _solution(solved: _Solved) -> Solution:
         for photo in photos
     }
     residuals = _residuals(network, refined, judgement)
-    out = [number for number in np.nonzero(solved.left_out)[0] if number in residuals]
+    out = [number for number in np.nonzero(solved.left_out)[0].tolist() if number in residuals]
     suspects = sorted((residuals[number] for number in out), key=lambda each: -each.statistic)
     remarks = [*_remarks_on_missing(network, active, solved.left_out)]
     remarks += remarks_on_lenses(network, refined, covariances.cameras)
@@ -209,10 +207,10 @@ def _points(
     state, layout = refined.state, refined.equations.layout
     world = state.world_places(network)
     found: dict[tuple[str, str], tuple[int, list[str]]] = {}
-    for number in np.nonzero(refined.problem.active)[0]:
+    for number in np.nonzero(refined.problem.active)[0].tolist():
         photograph = network.survey.photographs[network.photo_of[number]]
         key = (photograph.moment, network.survey.observations[number].point)
-        found.setdefault(key, (int(number), []))[1].append(photograph.name)
+        found.setdefault(key, (number, []))[1].append(photograph.name)
     points = {}
     for (moment, name), (number, photos) in sorted(found.items()):
         point, body = network.point_of[number], network.body_of[number]
