@@ -6,7 +6,23 @@ from typing import Annotated
 
 import typer
 
-from . import doctor, faces, lipsync, live, params, play, presets, render, replay, say, toon, vocab, voices, warmup
+from . import (
+    capture,
+    doctor,
+    faces,
+    lipsync,
+    live,
+    params,
+    play,
+    presets,
+    render,
+    replay,
+    say,
+    toon,
+    vocab,
+    voices,
+    warmup,
+)
 
 app = typer.Typer(
     name="mien",
@@ -32,6 +48,7 @@ for command in (
 ):
     app.command()(command)
 app.add_typer(toon.app, name="toon")
+app.add_typer(capture.app, name="capture")
 app.command()(warmup.warmup)
 app.command()(doctor.doctor)
 
