@@ -39,8 +39,8 @@ __all__ = [
 METHODS = ("metric", "appendix-c")
 """How cameras are found from references."""
 
-Report = Callable[[int, int], None]
-"""Takes how much is done, and how much there is to do."""
+Report = Callable[[str], None]
+"""Takes what is being done."""
 
 
 def read_project(folder: Path | str) -> Project:
@@ -131,7 +131,7 @@ def _check_corners(path: Path, observations: Sequence[Observation], boards: Sequ
     faults.check()
 
 
-def find_boards(project: Project, report: Report | None = None) -> tuple[Observation, ...]:
+def find_boards(project: Project, report: Callable[[int, int], None] | None = None) -> tuple[Observation, ...]:
     """Corners of all boards in the photographs, kept in ``boards.csv`` so that later runs need no pictures.
 
     Raises:
@@ -160,7 +160,7 @@ def solve_project(folder: Path | str, *, method: str | None = None, report: Repo
     Args:
         folder: of the project.
         method: ``metric``, which is the rule, or ``appendix-c`` as in Parke's thesis; a pair has a way of its own.
-        report: is told how much is done.
+        report: is told what is being done.
 
     Raises:
         MienError: what is wrong with its files, or why nothing can be found from them.
@@ -175,7 +175,9 @@ def solve_project(folder: Path | str, *, method: str | None = None, report: Repo
             hint="leave the method out; orthographic = true under [pair] is as in 1972",
         )
     if project.boards and not (project.folder / BOARDS).is_file():
-        find_boards(project, report)
+        if report is not None:
+            report("looking for boards")
+        find_boards(project)
     survey = survey_of(project)
     if project.pair is None:
         from .solving import solve

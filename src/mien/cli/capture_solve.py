@@ -46,8 +46,8 @@ def solve(
     from .stages import Stages
 
     stages = Stages(quiet)
-    with stages.progress("solving") as report:
-        solution = solve_project(folder, method=method, report=report)
+    with stages.stage("solved"):
+        solution = solve_project(folder, method=method, report=stages.say)
     project = read_project(folder)
     out = write_solution(folder, solution, project.unit)
     if as_json:
@@ -88,7 +88,7 @@ def _error_lines(solution: Solution) -> list[str]:
     photo, worst = max(errors.items(), key=lambda item: item[1])
     return [
         f"clicks are {rms_px(solution):.2f} px from the solution (RMS), {worst:.2f} px in {photo}; "
-        f"{solution.chi2_per_dof:.2f} times as much, squared, as their sigmas say"
+        f"χ² a degree of freedom {solution.chi2_per_dof:.2f}, 1 where sigmas are right"
     ]
 
 
