@@ -93,14 +93,9 @@ def test_measures_tell_when_something_breaks():
     assert len(flipped_polygons(folded)) > 0
 
 
-def test_two_hundred_random_poses_do_not_break():
-    found = failing(200, SHARES)
-    assert {name: share for name, share in found.items() if share > SHARES[name]} == {}
-
-
 @pytest.mark.slow
-def test_two_thousand_random_poses_do_not_break():
-    found = failing(2000, SHARES)
+def test_five_hundred_random_poses_do_not_break():
+    found = failing(500, SHARES)
     assert {name: share for name, share in found.items() if share > SHARES[name]} == {}
 
 
