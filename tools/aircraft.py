@@ -15,6 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
+from mien.faces.keypose.files import write_keypose
+from mien.faces.keypose.records import Keypose, KeyposeTopology, Polygon, SkinPart
+
 OUT = Path(__file__).parents[1] / "examples/keypose/aircraft.keypose"
 
 BODY, WING, FIN, GLASS, EXHAUST = "#465064", "#566178", "#8c2f2b", "#e2b457", "#c96f3a"
@@ -159,3 +162,18 @@ def _between(sheet: Sheet, outer: list[int], inner: list[int]) -> Iterator[tuple
         x, y, _ = np.add(sheet.aircraft[far - 1], sheet.aircraft[near - 1]) / 2.0
         thick = 0.0 if k in (3, 7) else WING_THICK if k < 3 else -WING_THICK
         yield (WING_X, float(letter[1]), float(letter[2])), (x, y, thick)
+
+
+def main(out: Path = OUT) -> None:
+    """Write the folder."""
+    sheet = build()
+    polygons = tuple(Polygon(tuple(points), color) for points, color in sheet.polygons)
+    places = np.array([sheet.letter, sheet.aircraft]) * 0.001
+    midline = tuple(int(k) + 1 for k in np.flatnonzero((places[:, :, 0] == 0.0).all(axis=0)))
+    topology = KeyposeTopology((SkinPart("skin", polygons),), midline, tuple(tuple(line) for line in sheet.creases))
+    doc = "A block letter H that becomes an aircraft, after figure 2.1 of Parke 1974"
+    write_keypose(out, Keypose("aircraft", topology, ("letter", "aircraft"), places, doc=doc))
+
+
+if __name__ == "__main__":
+    main()

@@ -34,6 +34,7 @@ SECTIONS = {
     "Parke's pictures": (
         "one_light",
         "figure_1972",
+        "figure_2_1",
         "figure_2_4",
         "figure_3_1",
         "figure_3_5",

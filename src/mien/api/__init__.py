@@ -11,6 +11,7 @@ from .faces import (
     voices,
     warmup,
 )
+from .phases import film_phases, load_phases, order_phases
 from .pictures import (
     draw,
     draw_paths,
@@ -32,12 +33,15 @@ __all__ = [
     "draw",
     "draw_paths",
     "face_names",
+    "film_phases",
     "find_voice",
     "hear",
     "load_face",
+    "load_phases",
     "make_model",
     "make_pose",
     "make_puppet",
+    "order_phases",
     "perform",
     "play",
     "pose_from",

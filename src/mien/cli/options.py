@@ -51,6 +51,10 @@ Caricature = Annotated[
     float, typer.Option("--caricature", metavar="N", help="The person N times, 0 to 3, as far from the average.")
 ]
 
+Phase = Annotated[
+    float | None, typer.Option("--phase", metavar="N", help="Of a measured face: 2.5 is half way from phase 2 to 3.")
+]
+
 Out = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help="File to write; the suffix picks the format.")]
 Film = Annotated[Path, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]
 OptionalFilm = Annotated[Path | None, typer.Option("-o", "--out", metavar="OUT", help=FILM_HELP)]

@@ -21,6 +21,7 @@ MESHES = ("obj", "glb")
 def render(
     face: options.FaceName,
     out: options.Out,
+    phase: options.Phase = None,
     values: options.Sets = None,
     preset: options.Presets = None,
     units: options.Units = None,
@@ -57,12 +58,13 @@ def render(
     mien render head:ada -o ada.glb
     mien render head --background transparent -o cutout.svg
     mien render head:parke1974 --light parke --diffuse 0.2 --cosine-power 2 -o plate.png
+    mien render ada.keypose --phase 2.5 -o half_a_smile.png
     mien render toon:olav --preset thumbs_up --set ELU=0 -o olav.png
     mien render head --sheet presets -o presets.png
     mien render head --sheet facs --size 192 -o action_units.png
     """
     from mien import api
-    from mien.core import Drawing
+    from mien.core import Drawing, MienError
     from mien.core import exaggerate as exaggerate_pose
     from mien.formats.atomic import check_file
 
@@ -87,6 +89,10 @@ def render(
         cosine_power=cosine_power,
     )
     settings.check_threads(threads)
+    if phase is not None:
+        if "phase" not in subject.parameters:
+            raise MienError(f"--phase {phase:g}: {face} is not made of measured phases — keypose:… are")
+        values = [f"phase={phase!r}", *(values or ())]
     pose = exaggerate_pose(settings.make_pose(subject, values, preset, units, mix, person, caricature), exaggerate)
     stages = Stages(quiet)
     if kind == "svg" and scene.shading not in ("polygon", "wire") and shading is not None:
