@@ -51,7 +51,8 @@ def photograph_size(path: Path) -> tuple[int, int]:
     """
     with _opened(path) as image:
         width, height = image.size
-        return (height, width) if _orientation(image) in TURNED else (width, height)
+        # Pillow tells the upright size of a TIFF by itself.
+        return (height, width) if image.format != "TIFF" and _orientation(image) in TURNED else (width, height)
 
 
 def read_photograph(path: Path) -> Pixels:
