@@ -18,10 +18,12 @@ from .project_toml import format_project
 from .records import REST, Photograph, Reference
 
 _PARTS = re.compile(
-    r"(?P<moment>.*?[^\W\d_].*?)[ _.-]*\(?(?P<view>\d+|front|side|left|right|center|centre|top|bottom|[a-h])\)?",
-    re.IGNORECASE,
+    r"(?P<moment>.*?[^\W\d_].*?)(?:[ _.-]*\(?(?P<number>\d+)\)?"
+    r"|[ _.-]+(?P<word>(?i:front|side|left|right|center|centre|top|bottom|[a-h]))|(?<=[a-z])(?P<letter>[A-H]))"
 )
-_COUNTED = re.compile(r"(img|image|dsc|dscn|dscf|p|pict|photo|pxl|mvi|screenshot)[ _-]*", re.IGNORECASE)
+"""Names as in smile-2, smile (2), smile_left, smileB."""
+
+_COUNTED = re.compile(r"(img|image|dsc|dscn|dscf|p|pict|photo|pxl|mvi|screenshot)[ _-]*\d.*", re.IGNORECASE)
 """What cameras call all of their pictures."""
 
 NOTES = """\
@@ -64,12 +66,14 @@ def guess_photographs(paths: Sequence[Path]) -> tuple[Photograph, ...]:
 
 def _guess(stem: str) -> tuple[str, str]:
     """Moment and view in the name of a file."""
-    parts = _PARTS.fullmatch(stem)
-    if _COUNTED.match(stem) and re.search(r"\d", stem):
+    if _COUNTED.fullmatch(stem):
         return REST, ""
     if stem.lower() in ("front", "side", "left", "right"):
         return REST, stem.lower()
-    return (parts["moment"], parts["view"].lower()) if parts else (stem if stem.isalpha() else REST, "")
+    parts = _PARTS.fullmatch(stem)
+    if parts is None:
+        return (stem if re.search(r"[^\W\d_]", stem) else REST), ""
+    return parts["moment"], (parts["number"] or parts["word"] or parts["letter"]).lower()
 
 
 def _letter(number: int) -> str:
