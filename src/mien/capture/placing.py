@@ -6,12 +6,13 @@ unknown; each place is judged by all points, none of which counts for more than 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.capture.projecting import lens_array, lens_record, see, see_slopes, turn, undistort
+from mien.capture.projecting import lens_record, see, see_slopes, turn, turn_slopes, undistort
 from mien.capture.records import Camera
 from mien.core.mesh import Points
 
@@ -127,92 +128,112 @@ def spread_triples(places: Points, pictures: Points, count: int = TRIPLES) -> ND
     return triples[np.concatenate([best, generator.permutation(others)[: count - len(best)]])]
 
 
-def place_camera(lenses: Points, places: Points, pictures: Points, size_px: float, *, keep: int = 3) -> list[Pose]:
-    """Where a camera may have stood to see places (N, 3) m at pictures (N, 2) px, the likeliest first.
+def place_camera(places: Points, pictures: Points, lens: Points, size_px: float) -> list[Pose]:
+    """Where a camera of a (5,) lens may have stood to see places (N, 3) m at (N, 2) px, the likeliest first."""
+    found = likely_poses(lens[None], places, pictures, size_px)
+    return sorted(found[0], key=lambda pose: pose.cost)
+
+
+def likely_poses(
+    lenses: Points, places: Points, pictures: Points, size_px: float, *, keep: int = 3, rounds: int = 15
+) -> list[list[Pose]]:
+    """Likely poses of a camera for each of several lenses (L, 5), none where three points do not tell one.
 
     Args:
         lenses: (L, 5) lenses to try.
-        places: (N, 3) m, three or more.
+        places: (N, 3) m.
         pictures: (N, 2) px.
         size_px: the greater side of the photograph.
         keep: how many likely poses of each lens are refined.
+        rounds: of refinement.
     """
     triples = spread_triples(places, pictures)
-    found: list[Pose] = []
     if not len(triples):
-        return found
-    cap = (FAR * size_px) ** 2
-    for lens in lenses:
+        return [[] for _ in lenses]
+    starts: list[Pose] = []
+    numbers: list[int] = []
+    for number, lens in enumerate(lenses):
         flat = undistort(lens_record(lens), pictures)
         directions = np.column_stack([flat, np.ones(len(flat))])
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         rotations, centres, _ = three_point_poses(places[triples], directions[triples])
-        costs = _costs(lens, rotations, centres, places, pictures, cap)
-        poses: list[Pose] = []
-        for number in np.argsort(costs, kind="stable")[: 12 * keep]:
-            if not np.isfinite(costs[number]) or len(poses) == keep:
-                break
-            rotation = rotations[number]
-            if any(np.trace(rotation.T @ each.rotation) > 2.98 for each in poses):
-                continue
-            poses.append(Pose(lens, rotation, centres[number], float(costs[number])))
-        found += [refine_pose(pose, places, pictures, size_px) for pose in poses]
-    return sorted(found, key=lambda pose: pose.cost)
+        costs = _costs(np.broadcast_to(lens, (len(centres), 5)), rotations, centres, places, pictures, size_px)
+        chosen: list[Pose] = []
+        for which in np.argsort(costs, kind="stable")[: 12 * keep]:
+            rotation = rotations[which]
+            if len(chosen) < keep and not any(np.trace(rotation.T @ each.rotation) > 2.98 for each in chosen):
+                chosen.append(Pose(lens, rotation, centres[which], float(costs[which])))
+        starts += chosen
+        numbers += [number] * len(chosen)
+    found: list[list[Pose]] = [[] for _ in lenses]
+    for number, pose in zip(numbers, refine_poses(starts, places, pictures, size_px, rounds=rounds), strict=True):
+        found[number].append(pose)
+    return found
 
 
-def _costs(lens: Points, rotations: Points, centres: Points, places: Points, pictures: Points, cap: float) -> Points:
+def _costs(
+    lenses: Points, rotations: Points, centres: Points, places: Points, pictures: Points, size_px: float
+) -> Points:
     """(M,) costs of poses as ``Pose`` has them; a point behind the camera counts as far off."""
+    cap = (FAR * size_px) ** 2
     frame = np.einsum("mij,mnj->mni", rotations, places[None] - centres[:, None])
     behind = ~(frame[..., 2] > 1e-9)
     frame[behind] = 1.0
-    off = ((see(lens, frame) - pictures) ** 2).sum(axis=2)
+    off = ((see(lenses[:, None], frame) - pictures) ** 2).sum(axis=2)
     off[behind | ~(off < cap)] = cap
     return off.mean(axis=1) / cap
 
 
-def refine_pose(
-    pose: Pose, places: Points, pictures: Points, size_px: float, *, free: tuple[int, ...] = (), rounds: int = 15
-) -> Pose:
-    """The pose nearby of least cost, with the lens terms of numbers ``free`` let go too (0: focal length, 3: k1).
+def refine_poses(
+    poses: Sequence[Pose],
+    places: Points,
+    pictures: Points,
+    size_px: float,
+    *,
+    free: tuple[int, ...] = (),
+    rounds: int = 15,
+) -> list[Pose]:
+    """Poses nearby of least cost, each by itself, with the lens terms of numbers ``free`` let go too (0: focal length).
 
     Points that are far off weigh less and less (Geman and McClure 1987), so that mis-clicks do not pull.
     """
-    cap = (FAR * size_px) ** 2
-    best, damping = pose, 1e-3
-    terms = list(free)
+    if not poses:
+        return []
+    cap, count, terms = (FAR * size_px) ** 2, len(poses), list(free)
+    lenses = np.array([pose.lens for pose in poses])
+    rotations = np.array([pose.rotation for pose in poses])
+    centres = np.array([pose.place for pose in poses])
+    costs = _costs(lenses, rotations, centres, places, pictures, size_px)
+    damping = np.full(count, 1e-3)
     for _ in range(rounds):
-        frame = (places - best.place) @ best.rotation.T
-        before = frame[:, 2] > 1e-9
-        if before.sum() < 3:
-            return best
-        seen, by_lens, by_frame = see_slopes(np.tile(best.lens, (int(before.sum()), 1)), frame[before])
-        off = pictures[before] - seen
-        weight = 1.0 / (1.0 + (off * off).sum(axis=1) / cap) ** 2
-        by_turn = np.cross(frame[before][:, None, :], by_frame)
-        jacobian = np.concatenate([by_turn, -by_frame @ best.rotation, by_lens[:, :, terms]], axis=2)
-        flat = (jacobian * weight[:, None, None]).reshape(-1, jacobian.shape[2])
-        normal = flat.T @ jacobian.reshape(-1, jacobian.shape[2])
-        gradient = flat.T @ off.reshape(-1)
-        scale = np.diag(normal) + 1e-12 * np.trace(normal)
-        better = None
-        for _ in range(6):
-            step = np.linalg.lstsq(normal + damping * np.diag(scale), gradient, rcond=None)[0]
-            lens = best.lens.copy()
-            lens[terms] += step[6:]
-            rotation = turn(step[:3]) @ best.rotation
-            place = best.place + step[3:6]
-            cost = float(_costs(lens, rotation[None], place[None], places, pictures, cap)[0]) if lens[0] > 0 else np.inf
-            if cost < best.cost:
-                better = Pose(lens, rotation, place, cost)
-                break
-            damping *= 10.0
-        if better is None:
-            return best
-        gain = best.cost - better.cost
-        best, damping = better, damping * 0.1
-        if gain < 1e-6 * best.cost + 1e-14:
+        frame = np.einsum("mij,mnj->mni", rotations, places[None] - centres[:, None])
+        behind = ~(frame[..., 2] > 1e-9)
+        frame[behind] = 1.0
+        seen, by_lens, by_frame = see_slopes(np.repeat(lenses, len(places), axis=0), frame.reshape(-1, 3))
+        off = pictures - seen.reshape(count, -1, 2)
+        weight = 1.0 / (1.0 + (off * off).sum(axis=2) / cap) ** 2
+        weight[behind] = 0.0
+        by_turn = turn_slopes(frame.reshape(-1, 3), by_frame)
+        by_place = -by_frame @ np.repeat(rotations, len(places), axis=0)
+        jacobian = np.concatenate([by_turn, by_place, by_lens[:, :, terms]], axis=2).reshape(count, 2 * len(places), -1)
+        weighed = (jacobian * np.repeat(weight, 2, axis=1)[:, :, None]).transpose(0, 2, 1)
+        normal = weighed @ jacobian
+        scale = np.einsum("mii->mi", normal)
+        scale = damping[:, None] * scale + 1e-12 * scale.sum(axis=1, keepdims=True) + 1e-300
+        damped = normal + scale[:, :, None] * np.eye(normal.shape[1])
+        steps = np.linalg.solve(damped, weighed @ off.reshape(count, -1, 1))[:, :, 0]
+        new_lenses = lenses.copy()
+        new_lenses[:, terms] += steps[:, 6:]
+        new_rotations, new_centres = turn(steps[:, :3]) @ rotations, centres + steps[:, 3:6]
+        new_costs = _costs(new_lenses, new_rotations, new_centres, places, pictures, size_px)
+        better = (new_costs < costs) & (new_lenses[:, 0] > 0.0)
+        gain = np.where(better, costs - new_costs, 0.0)
+        lenses[better], rotations[better] = new_lenses[better], new_rotations[better]
+        centres[better], costs[better] = new_centres[better], new_costs[better]
+        damping = np.where(better, damping * 0.1, damping * 10.0)
+        if (np.where(better, gain < 1e-6 * costs + 1e-14, damping > 1e3)).all():
             break
-    return best
+    return [Pose(lenses[k], rotations[k], centres[k], float(costs[k])) for k in range(count)]
 
 
 def focal_lenses(size_px: tuple[int, int], count: int = 11) -> Points:
@@ -229,6 +250,3 @@ def sensible(pose: Pose, size_px: tuple[int, int]) -> bool:
     greater = max(size_px)
     centred = abs(u - size_px[0] / 2.0) < 0.3 * greater and abs(v - size_px[1] / 2.0) < 0.3 * greater
     return bool(0.2 * greater < focal < 40.0 * greater and centred and abs(k1) < 5.0)
-
-
-__all__ = ["Pose", "focal_lenses", "lens_array", "place_camera", "refine_pose", "sensible", "three_point_poses"]

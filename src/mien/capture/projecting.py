@@ -118,6 +118,13 @@ def turn(vectors: Points) -> Points:
     return np.eye(3) + first * cross + second * (cross @ cross)
 
 
+def turn_slopes(vectors: Points, slopes: Points) -> Points:
+    """(N, K, 3) slopes by a turn of vectors (N, 3) about their origin, v × slope, of slopes (N, K, 3) by them."""
+    x, y, z = (vectors[:, axis, None] for axis in range(3))
+    a, b, c = (slopes[:, :, axis] for axis in range(3))
+    return np.stack([y * c - z * b, z * a - x * c, x * b - y * a], axis=2)
+
+
 def cross_matrices(vectors: Points) -> NDArray[np.float64]:
     """(..., 3, 3) matrices M with M @ w = v × w of (..., 3) vectors v."""
     result = np.zeros((*vectors.shape, 3))

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from mien.capture.networks import Bools, Network, State
-from mien.capture.projecting import LENS_TERMS, see_slopes, turn
+from mien.capture.projecting import LENS_TERMS, see_slopes, turn, turn_slopes
 from mien.core.errors import MienError
 from mien.core.mesh import Ints, Points
 
@@ -172,9 +172,9 @@ def differ(problem: Problem, state: State, layout: Layout) -> tuple[Points, Poin
     by_columns = np.concatenate(
         [
             by_lens * inverse[:, None, None],
-            np.cross(frame[:, None, :], by_frame),
+            turn_slopes(frame, by_frame),
             -by_world,
-            np.cross(turned[:, None, :], by_world),
+            turn_slopes(turned, by_world),
             by_world,
         ],
         axis=2,

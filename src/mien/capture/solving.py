@@ -22,11 +22,12 @@ from mien.capture.projecting import cross_matrices, see
 from mien.capture.records import Camera, Residual, Solution, SolvedPoint, Survey
 from mien.capture.refining import Problem, Refined, refine
 from mien.capture.snooping import CONTRADICTED, Judgement, judge, worst
+from mien.capture.solving_appendix_c import solve_appendix_c
 from mien.capture.starting import FEWEST_PLACED, begin
 from mien.core.errors import UnknownNameError
 from mien.core.mesh import Points
 
-METHODS = ("metric",)
+METHODS = ("metric", "appendix-c")
 Report = Callable[[str], None]
 
 
@@ -43,8 +44,9 @@ def solve(survey: Survey, *, method: str = "metric", report: Report | None = Non
     """
     if method not in METHODS:
         raise UnknownNameError("method", method, METHODS)
-    say = report or _say_nothing
-    return _solve_metric(survey, say)
+    if method == "appendix-c":
+        return solve_appendix_c(survey)
+    return _solve_metric(survey, report or _say_nothing)
 
 
 def _say_nothing(_text: str) -> None:

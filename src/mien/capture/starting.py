@@ -7,14 +7,14 @@ see too few references.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from mien.capture.homogeneous import FEWEST, homogeneous_matrix, metric_camera, nearest_to_rays
 from mien.capture.networks import Network, State, unknown_state
-from mien.capture.placing import FAR, Pose, focal_lenses, place_camera, refine_pose, sensible
+from mien.capture.placing import FAR, Pose, focal_lenses, likely_poses, place_camera, refine_poses, sensible
 from mien.capture.projecting import lens_array, rays, see
 from mien.core.errors import MienError
 from mien.core.mesh import Ints, Points
@@ -23,6 +23,8 @@ FEWEST_PLACED = 4
 """Points of known place that a photograph of known lens needs: three leave several places."""
 GOOD = (0.004 / FAR) ** 2
 """Cost of a start that needs no better one: seen within 0.4 % of the picture."""
+ENOUGH = 20
+"""Points of a photograph that judge a guess, about."""
 JUDGES = 6
 """Photographs by which the lens of a camera is guessed, at most."""
 
@@ -41,6 +43,11 @@ class Sight:
         """Whether the points do not lie on one plane (nor nearly so)."""
         spread = np.linalg.svd(self.places - self.places.mean(axis=0), compute_uv=False)
         return len(self.places) > 3 and bool(spread[2] > 0.03 * spread[0])
+
+    def thinned(self) -> Sight:
+        """No more points than a guess needs."""
+        step = max(1, len(self.places) // ENOUGH)
+        return replace(self, places=self.places[::step], pictures=self.pictures[::step])
 
 
 def begin(network: Network) -> tuple[State, Ints]:
@@ -114,7 +121,7 @@ def guess_lens(sights: list[Sight], size_px: tuple[int, int]) -> Points:
     if good and len(good) * 2 > len(solid[:JUDGES]):
         return np.median(good, axis=0)
     judges = sorted(sights, key=lambda sight: (not sight.solid, -len(sight.places), sight.photo))
-    judges = judges[:: max(1, len(judges) // JUDGES)][:JUDGES]
+    judges = [each.thinned() for each in judges[:: max(1, len(judges) // JUDGES)][:JUDGES]]
     best, cost = _cheapest(focal_lenses(size_px), judges, size_px)
     if cost > GOOD:
         bent = np.repeat(focal_lenses(size_px)[:5], 2, axis=0)
@@ -130,11 +137,11 @@ def guess_lens(sights: list[Sight], size_px: tuple[int, int]) -> Points:
 
 def _cheapest(lenses: Points, judges: list[Sight], size_px: tuple[int, int]) -> tuple[Points, float]:
     """The lens of least mean cost, and that cost."""
-    costs = []
-    for lens in lenses:
-        found = [place_camera(lens[None], each.places, each.pictures, max(size_px), keep=2)[:1] for each in judges]
-        costs.append(np.mean([poses[0].cost if poses else 1.0 for poses in found]))
-    return lenses[int(np.argmin(costs))], float(min(costs))
+    costs = np.zeros(len(lenses))
+    for each in judges:
+        found = likely_poses(lenses, each.places, each.pictures, max(size_px), keep=2, rounds=6)
+        costs += [min((pose.cost for pose in poses), default=1.0) for poses in found]
+    return lenses[int(np.argmin(costs))], float(costs.min()) / len(judges)
 
 
 def _direct(sight: Sight, size_px: tuple[int, int]) -> Pose | None:
@@ -148,7 +155,7 @@ def _direct(sight: Sight, size_px: tuple[int, int]) -> Pose | None:
     lens = lens_array(camera.lens)
     lens[1:3] = np.array(size_px) / 2.0
     pose = Pose(lens, camera.rotation, camera.place, 1.0)
-    return refine_pose(pose, sight.places, sight.pictures, max(size_px), free=(0, 3), rounds=30)
+    return refine_poses([pose], sight.places, sight.pictures, max(size_px), free=(0, 3), rounds=30)[0]
 
 
 def _best_pose(network: Network, state: State, sight: Sight) -> Pose | None:
@@ -156,7 +163,7 @@ def _best_pose(network: Network, state: State, sight: Sight) -> Pose | None:
     lens = state.lenses[network.lens_at[sight.photo]]
     if not np.isfinite(lens[0]):
         return None
-    poses = place_camera(lens[None], sight.places, sight.pictures, max(_size(network, sight.photo)))
+    poses = place_camera(sight.places, sight.pictures, lens, max(_size(network, sight.photo)))
     return poses[0] if poses and poses[0].cost < 0.9 else None
 
 
@@ -267,7 +274,7 @@ def _resect(network: Network, state: State) -> bool:
         size_px = _size(network, photo)
         sight = Sight(photo, 0, world[which], network.pictures[which])
         lens = state.lenses[number] if lens_known else guess_lens([sight], size_px)
-        poses = place_camera(lens[None], sight.places, sight.pictures, max(size_px))
+        poses = place_camera(sight.places, sight.pictures, lens, max(size_px))
         if poses and poses[0].cost < 0.5:
             state.lenses[number] = lens
             state.rotations[station], state.places[station] = poses[0].rotation, poses[0].place
