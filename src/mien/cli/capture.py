@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from . import capture_boards, capture_exchange, capture_new, capture_solve
+from . import capture_boards, capture_exchange, capture_keypose, capture_new, capture_solve
 
 app = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
 """The commands about photographs."""
@@ -12,6 +12,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None)
 app.command("new")(capture_new.new)
 app.command("boards")(capture_boards.boards)
 app.command("solve")(capture_solve.solve)
+app.command("keypose")(capture_keypose.keypose)
 app.command("import")(capture_exchange.import_points)
 app.command("export")(capture_exchange.export_points)
 
@@ -24,4 +25,5 @@ def capture() -> None:
     mien capture new anna photos/*.jpg      a folder with project.toml, points.csv and references.csv
     mien capture solve anna                 cameras and points, into anna/solution
     mien capture solve anna --json
+    mien capture keypose anna -o anna.keypose
     """
