@@ -24,6 +24,7 @@ HIDDEN_BELOW_M = -0.150
 SEEN_PX = 6
 """Pixels of a dot from which on it is clicked."""
 DOT_COLOR, BEAD_COLOR, STRING_COLOR = (0.02, 0.05, 0.30), (0.75, 0.05, 0.04), (0.6, 0.6, 0.55)
+PLAIN = Material()
 STEP, LEVELS = 8, 30
 """Numbers are written into colours with so many steps of a channel, so far apart."""
 
@@ -119,7 +120,7 @@ class Studio:
             rows: np.ndarray,
             rgb: np.ndarray,
             ids: np.ndarray | None = None,
-            material: Material = Material(),
+            material: Material = PLAIN,
         ) -> None:
             first = sum(map(len, points))
             parts.append((name, rows + first, material))
