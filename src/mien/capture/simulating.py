@@ -17,7 +17,7 @@ from mien.capture.records import REST, WORLD, Camera, Lens, Observation, Photogr
 from mien.core.mesh import Points
 
 INCH_M = 0.0254
-FILLED = 0.92
+FILLED = 0.95
 """Share of the picture's width or height that the references fill."""
 
 Noise = Literal["normal", "uniform", "rounded"]

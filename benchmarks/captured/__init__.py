@@ -1,0 +1,1 @@
+"""What ``benchmarks/capture.py`` measures and whom it measures against."""
