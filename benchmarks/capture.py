@@ -76,13 +76,13 @@ def row(*cells: object) -> None:
     print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
 
-def compare(setups: Iterable[tuple[tuple[object, ...], Setup]], methods: Sequence[str], seeds: range) -> Iterator[Kept]:
+def compare(setups: Iterable[tuple[tuple[object, ...], Setup]], seeds: range) -> Iterator[Kept]:
     """Print a row for each set-up, a column for each method."""
     for labels, setup in setups:
-        outcomes = simulated.outcomes(setup, methods, seeds)
+        outcomes = simulated.outcomes(setup, METHODS, seeds)
         against = beside(outcomes)
-        row(*labels, *(cell(outcomes[method]) for method in methods), "{:.2f} ({:.2f} to {:.2f})".format(*against))
-        yield {"setup": labels, "beside": against} | {method: percentiles(outcomes[method]) for method in methods}
+        row(*labels, *(cell(outcomes[method]) for method in METHODS), "{:.2f} ({:.2f} to {:.2f})".format(*against))
+        yield {"setup": labels, "beside": against} | {method: percentiles(outcomes[method]) for method in METHODS}
 
 
 def parke(seeds: range) -> Iterator[Kept]:
@@ -94,7 +94,7 @@ def parke(seeds: range) -> Iterator[Kept]:
         for references in REFERENCES
         for views in VIEWS
     )
-    yield from compare(setups, METHODS, seeds)
+    yield from compare(setups, seeds)
 
 
 def modern(seeds: range) -> Iterator[Kept]:
@@ -108,7 +108,7 @@ def modern(seeds: range) -> Iterator[Kept]:
         for label, one_lens in lenses.items()
         for views in VIEWS
     )
-    yield from compare(setups, METHODS, seeds)
+    yield from compare(setups, seeds)
 
 
 def coverage(seeds: range) -> Iterator[Kept]:

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from captured import opencv
 
+from captured import opencv
 from mien.capture.records import Solution
 from mien.capture.simulating import INCH_M, Setup, Simulated, cube, simulate
 from mien.capture.solving import solve

@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from mien.capture.projecting import project, turn
 from mien.capture.records import REST, WORLD, Camera, Lens, Observation, Photograph, Reference, Survey
 from mien.core.mesh import Points
 
@@ -143,7 +144,7 @@ def simulate(setup: Setup, seed: int) -> Simulated:
         facing = (normals * towards).sum(axis=1) / np.linalg.norm(towards, axis=1)
         hidden = {name for name, cosine in zip(names, facing, strict=True) if cosine < _cosine(setup.turned_deg)}
         there = [name for moment, name in places if moment == photograph.moment and name not in hidden]
-        seen = _seen(camera, np.array([places[photograph.moment, name] for name in there]))
+        seen = project(camera, np.array([places[photograph.moment, name] for name in there]))
         clicks += [(photograph, name, place) for name, place in zip(there, seen, strict=True)]
     observations, wrong = _clicked(setup, clicks, random)
     survey = Survey(photographs, observations, tuple(_surveyed(setup, random)))
@@ -157,15 +158,6 @@ def _photographs(setup: Setup, moments: Sequence[str]) -> Iterator[Photograph]:
         yield Photograph(name, setup.size_px, camera, moment, setup.fixed)
 
 
-def _seen(camera: Camera, places: Points) -> Points:
-    """(N, 2) px where places (N, 3) are seen."""
-    lens = camera.lens
-    x, y, z = ((places - camera.place) @ camera.rotation.T).T
-    radius2 = (x * x + y * y) / (z * z)
-    stretch = lens.focal_px * (1.0 + lens.k1 * radius2 + lens.k2 * radius2 * radius2) / z
-    return np.stack([x * stretch, y * stretch], axis=1) + lens.principal_px
-
-
 def _cosine(angle_deg: float) -> float:
     return math.cos(math.radians(angle_deg))
 
@@ -176,19 +168,10 @@ def _held_boards(setup: Setup, moments: Sequence[str], random: np.random.Generat
     for moment, target in product(moments, sorted({each.target for each in setup.references} - {WORLD})):
         corners = [each for each in setup.references if each.target == target]
         places = np.array([[each.x, each.y, each.z] for each in corners])
-        places = (places - places.mean(axis=0)) @ _turned(random.uniform(-0.6, 0.6, 3)).T
+        places = (places - places.mean(axis=0)) @ turn(random.uniform(-0.6, 0.6, 3)).T
         places = places * [1.0, -1.0, -1.0] + random.uniform(-0.04, 0.04, 3)
         held |= {(moment, each.name): place for each, place in zip(corners, places, strict=True)}
     return held
-
-
-def _turned(angles: Points) -> Points:
-    """(3, 3), turns about x, then y, then z."""
-    (sx, sy, sz), (cx, cy, cz) = np.sin(angles), np.cos(angles)
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cx, -sx], [0.0, sx, cx]])
-    about_y = np.array([[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]])
-    about_z = np.array([[cz, -sz, 0.0], [sz, cz, 0.0], [0.0, 0.0, 1.0]])
-    return about_z @ about_y @ about_x
 
 
 def _cameras(
@@ -217,7 +200,7 @@ def _cameras(
         for photograph in photographs:
             if photograph.camera == name:
                 there = np.array([place for (moment, _), place in places.items() if moment == photograph.moment])
-                reach = np.maximum(reach, np.abs(_seen(cameras[photograph.name], there)).max(axis=0))
+                reach = np.maximum(reach, np.abs(project(cameras[photograph.name], there)).max(axis=0))
         focal = FILLED * float((room / reach).min())
         lenses[name] = Lens(focal, (float(principal[0]), float(principal[1])), setup.k1, setup.k2)
     return {each.name: replace(cameras[each.name], lens=lenses[each.camera]) for each in photographs}
@@ -232,7 +215,7 @@ def _placed(setup: Setup, angle: float, raised: float, random: np.random.Generat
     right = np.cross(forward, [0.0, 1.0, 0.0])
     right /= np.linalg.norm(right)
     upright = np.stack([right, np.cross(forward, right), forward])
-    return _turned(np.array([0.0, 0.0, random.uniform(-0.05, 0.05)])) @ upright, place
+    return turn(np.array([0.0, 0.0, random.uniform(-0.05, 0.05)])) @ upright, place
 
 
 def _clicked(

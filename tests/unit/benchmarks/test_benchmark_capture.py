@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mien.capture.projecting import turn
 from mien.capture.records import REST, Solution, SolvedPoint
 from mien.capture.simulating import Setup, board, cube, simulate
 
@@ -33,7 +34,7 @@ def capture(monkeypatch):
 def test_an_error_is_the_root_mean_square_in_percent_of_ten_inches(captured):
     simulated = simulate(Setup(points=4), 1)
     off = dict(zip(["p001", "p002", "p003", "p004"], [0.0, 0.0, 0.00254, 0.00254], strict=True))
-    places = {key: true + [0.0, off.get(key[1], 1.0), 0.0] for key, true in simulated.places.items()}
+    places = {key: true + np.array([0.0, off.get(key[1], 1.0), 0.0]) for key, true in simulated.places.items()}
     assert captured.simulated.error_percent(simulated, places) == pytest.approx(np.sqrt(0.5))
 
 
@@ -46,7 +47,8 @@ def test_ellipsoids_are_counted_that_hold_the_true_place(captured):
         name = key[1]
         kind = "measured" if name in off else "reference"
         covariance = np.diag([1e-8, 1e-6, 1e-8])
-        points[key] = SolvedPoint(name, REST, true + [0.0, 1e-3 * off.get(name, 9.0), 0.0], covariance, (), kind)
+        place = true + np.array([0.0, 1e-3 * off.get(name, 9.0), 0.0])
+        points[key] = SolvedPoint(name, REST, place, covariance, (), kind)
     solution = Solution(simulated.survey, simulated.cameras, points, ())
     assert captured.simulated.coverage(simulated, solution) == (3, 4)
 
@@ -89,10 +91,8 @@ def test_a_true_rig_has_no_held_out_error_and_a_wrong_one_has(captured):
 
 
 def test_a_board_is_laid_and_not_scaled(captured):
-    from mien.capture.simulating import _turned
-
     flat = captured.chessboards.BOARD.astype(float)
-    moved = flat @ _turned(np.array([0.3, -0.8, 2.0])).T + [1.0, -2.0, 9.0]
+    moved = flat @ turn(np.array([0.3, -0.8, 2.0])).T + [1.0, -2.0, 9.0]
     assert captured.chessboards._laid_on(flat, moved).max() < 1e-9
     from_middle = np.linalg.norm(flat - flat.mean(axis=0), axis=1)
     assert captured.chessboards._laid_on(flat, 1.5 * moved) == pytest.approx(0.5 * from_middle)
@@ -113,6 +113,7 @@ def test_refused_surveys_are_told(capture):
 
 
 def test_a_set_up_is_a_row(capture, capsys):
-    (kept,) = capture.compare([(("here", 2), capture.simulated.modern(2))], ("metric",), range(2))
-    assert capsys.readouterr().out.startswith("| here | 2 | 0.0")
+    (kept,) = capture.compare([(("here", 2), capture.simulated.modern(2))], range(2))
+    assert capsys.readouterr().out.startswith("| here | 2 | ")
     assert 0.04 < kept["metric"][0] < 0.14
+    assert 0.5 < kept["beside"][1] < kept["beside"][0] < kept["beside"][2] < 2.0
