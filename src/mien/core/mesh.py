@@ -56,7 +56,8 @@ class Topology:
     Polygon f has the corners ``corners[starts[f]:starts[f + 1]]``, anticlockwise seen from outside. A crease that
     must stay sharp is a pair of edges with vertices of their own at the same places ("doubled vertices"), or a
     row of ``creases``; a row of one vertex, twice, is a corner, which subdivision leaves where it is. The parts cover
-    all polygons in order.
+    all polygons in order. Polygons that have one number of ``tints``, -1 excepted, and a vertex in common flow into one
+    another where colours belong to polygons and are subdivided; none if nothing flows.
     """
 
     vertex_count: int
@@ -64,6 +65,7 @@ class Topology:
     starts: Ints
     parts: tuple[Part, ...]
     creases: Ints = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
+    tints: Ints | None = None
 
     def __post_init__(self) -> None:
         if len(self.corners) and not (self.corners.min() >= 0 and self.corners.max() < self.vertex_count):
@@ -98,6 +100,7 @@ class Topology:
             corners=self.corners[np.repeat(polygons, sizes)],
             starts=np.concatenate([[0], np.cumsum(sizes[polygons])]),
             parts=tuple(run for run in runs if run.last > run.first),
+            tints=None if self.tints is None else self.tints[polygons],
         )
 
     @cached_property

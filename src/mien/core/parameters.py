@@ -120,8 +120,8 @@ def color(name: str, rgb: tuple[float, float, float], **more: str) -> tuple[Para
 class ParameterTable:
     """An ordered, immutable table of parameters.
 
-    ``aliases`` are other names of single rows (ToonFace's motor codes). ``symmetric`` names (``eyelid.opening``)
-    stand for a left and a right row and are derived.
+    ``aliases`` are other names of rows (ToonFace's motor codes), or of a left and a right one. ``symmetric`` names
+    (``eyelid.opening``) stand for a left and a right row and are derived.
     """
 
     rows: tuple[Parameter, ...]
@@ -136,7 +136,7 @@ class ParameterTable:
             if row.mirror not in self.index:
                 raise MienError(f"parameter {row.name!r} has no twin {row.mirror!r}")
         for alias, name in self.aliases.items():
-            if name not in self.index:
+            if name not in self.index and name not in self.symmetric:
                 raise UnknownNameError(f"parameter behind alias {alias!r}", name, self.names)
 
     @cached_property

@@ -10,7 +10,7 @@ edges: cubic B-spline curves; a vertex where one, or more than two, sharp edges 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from .mesh import Mesh, Part, Topology
 from .sparse import SparseMatrix, sort_pairs
+from .tinting import tinting_of
 
 Ints = NDArray[np.int64]
 Multiply = Callable[[SparseMatrix, Sequence[NDArray[np.float64]]], Sequence[NDArray[np.float64]]]
@@ -35,11 +36,17 @@ class Refinement:
         topology: the finer one.
         matrix: (V', V), makes its vertex values.
         polygon_parent: (F',) the polygon that each of its polygons comes from.
+        tinting: (F', F), makes its polygons' colours where some flow into one another; None if none do.
     """
 
     topology: Topology
     matrix: SparseMatrix
     polygon_parent: Ints
+    tinting: SparseMatrix | None = None
+
+    def tint(self, colors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(F', 3) colours of its polygons, of coarse ones (F, 3)."""
+        return colors[self.polygon_parent] if self.tinting is None else self.tinting.apply(colors)
 
 
 def apply_to_each(matrix: SparseMatrix, values: Sequence[NDArray[np.float64]]) -> Sequence[NDArray[np.float64]]:
@@ -58,7 +65,7 @@ def subdivide(mesh: Mesh, levels: int, multiply: Multiply = apply_to_each) -> Me
     for _ in range(levels):
         fine = refine(mesh.topology)
         if mesh.colored_by_polygon:
-            (points,), colors = multiply(fine.matrix, (mesh.points,)), mesh.colors[fine.polygon_parent]
+            (points,), colors = multiply(fine.matrix, (mesh.points,)), fine.tint(mesh.colors)
         else:
             points, colors = multiply(fine.matrix, (mesh.points, mesh.colors))
         normals = None if mesh.normals is None else _keep_rows(mesh.normals, fine.topology.vertex_count)
@@ -112,7 +119,11 @@ def refine(topology: Topology) -> Refinement:
     creases = np.stack([edges[creased, 0], middle, middle, edges[creased, 1]], axis=1).reshape(-1, 2)
     creases = np.concatenate([creases, kept])
     fine, parents = _fine_topology(topology, corner_chosen, face_vertex, edge_vertex, total, creases)
-    return Refinement(fine, matrix, parents)
+    if topology.tints is None:
+        return Refinement(fine, matrix, parents)
+    return Refinement(
+        replace(fine, tints=topology.tints[parents]), matrix, parents, tinting_of(topology, fine, parents)
+    )
 
 
 def _edges(start: Ints, end: Ints) -> tuple[Ints, Ints]:

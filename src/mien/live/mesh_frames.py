@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mien.core import Mesh, MienError, Scene, Topology
 from mien.core.sparse import SparseMatrix
-from mien.core.subdivision import refine
+from mien.core.subdivision import Refinement, refine
 from mien.render.pixels import to_srgb
 from mien.render.plan import plan_shading
 from mien.render.shade import own_normals
@@ -37,13 +37,14 @@ class MeshFrames:
     """Setup and frames of meshes of one topology; whose colours stay, mostly, those of the first."""
 
     def __init__(self, mesh: Mesh, scene: Scene) -> None:
-        if len(mesh.colors) > MOST_COLORS:
-            raise MienError(f"a mesh of {len(mesh.colors)} colours cannot be sent — at most {MOST_COLORS} can")
         self._topology, self._scene = mesh.topology, scene
         self._surface = describe_surface(mesh.topology, scene, mesh.colored_by_polygon)
         self._steps = Steps((mesh.points.min(axis=0) + mesh.points.max(axis=0)) * 0.5)
-        self._colors, self._last = mesh.colors, mesh.colors
-        self._codes = to_srgb(mesh.colors)
+        self._given, self._sent = mesh.colors, self._surface.tint(mesh.colors)
+        if len(self._sent) > MOST_COLORS:
+            raise MienError(f"a mesh of {len(self._sent)} colours cannot be sent — at most {MOST_COLORS} can")
+        self._colors = self._last = self._sent
+        self._codes = to_srgb(self._colors)
 
     def describe(self) -> dict[str, Any]:
         """Camera, light and parts."""
@@ -63,14 +64,16 @@ class MeshFrames:
 
         None where the topology is another one, or the colours are other ones for good.
         """
-        if mesh.topology is not self._topology or len(mesh.colors) != len(self._colors):
+        if mesh.topology is not self._topology or len(mesh.colors) != len(self._given):
             return None
-        changed = _find_differing(mesh.colors, self._colors)
-        last, self._last = self._last, mesh.colors
-        most = LIVELY * len(mesh.colors)
-        if len(changed) > most and len(_find_differing(mesh.colors, last)) <= most:
+        if mesh.colors is not self._given:
+            self._given, self._sent = mesh.colors, self._surface.tint(mesh.colors)
+        colors, last = self._sent, self._last
+        self._last = colors
+        changed, most = _find_differing(colors, self._colors), LIVELY * len(colors)
+        if len(changed) > most and len(_find_differing(colors, last)) <= most:
             return None
-        codes = to_srgb(mesh.colors[changed])
+        codes = to_srgb(colors[changed])
         seen = (codes != self._codes[changed]).any(axis=1)
         changed, codes = changed[seen], codes[seen]
         points, runs = self._steps.encode(mesh.points), _find_runs(changed)
@@ -127,6 +130,8 @@ class Surface:
         refined_points: of the surface.
         round_vertices: (Q,) vertices of the cage whose normals are sent.
         colored_by_polygon: whether a colour belongs to a polygon of the cage, not to a vertex.
+        tinted: the steps of subdivision in which colours flow into one another, so that those of the surface's
+            polygons are sent; none where those of the cage are.
     """
 
     parts: list[dict[str, Any]]
@@ -134,6 +139,13 @@ class Surface:
     refined_points: int
     round_vertices: Ints
     colored_by_polygon: bool
+    tinted: tuple[Refinement, ...] = ()
+
+    def tint(self, colors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(N, 3) the colours that are sent."""
+        for step in self.tinted:
+            colors = step.tint(colors)
+        return colors
 
 
 def describe_surface(topology: Topology, scene: Scene, colored_by_polygon: bool) -> Surface:
@@ -144,12 +156,13 @@ def describe_surface(topology: Topology, scene: Scene, colored_by_polygon: bool)
 # Other colours make another setup, of the same surface; to describe it takes longer than many loops.
 @lru_cache(maxsize=4)
 def _describe(topology: Topology, subdivide: int, flat: bool, gloss: float, colored_by_polygon: bool) -> Surface:
-    fine, matrix, parents = _refine(topology, subdivide)
+    fine, matrix, parents, steps = _refine(topology, subdivide)
+    tinted = steps if colored_by_polygon and topology.tints is not None else ()
     plan = plan_shading(fine, flat, colored_by_polygon)
     corner_point, corner_node = plan.triangles.T, plan.triangle_front.astype(np.int64)
     polygon = fine.polygon_of_triangle[:, None]
     if colored_by_polygon:
-        color = np.broadcast_to(parents[polygon], corner_point.shape)
+        color = np.broadcast_to(polygon if tinted else parents[polygon], corner_point.shape)
     else:
         # Colours of a flat polygon are the mean of its corners': it is named by a number below 0.
         color = np.where(plan.polygon[corner_node] >= 0, -1 - polygon, corner_point)
@@ -175,20 +188,22 @@ def _describe(topology: Topology, subdivide: int, flat: bool, gloss: float, colo
         "triangles": triangles.reshape(-1),
     }
     small = {name: _smallest(array) for name, array in arrays.items()}
-    return Surface(_parts(fine, gloss), small, fine.vertex_count, plan.vertex[plan.round], colored_by_polygon)
+    vertices = plan.vertex[plan.round]
+    return Surface(_parts(fine, gloss), small, fine.vertex_count, vertices, colored_by_polygon, tinted)
 
 
-def _refine(topology: Topology, levels: int) -> tuple[Topology, SparseMatrix, Ints]:
-    """The finer topology, one matrix (V', V) of all steps, and the first polygon (F',) that each of its comes from."""
+def _refine(topology: Topology, levels: int) -> tuple[Topology, SparseMatrix, Ints, tuple[Refinement, ...]]:
+    """The finer topology, one matrix (V', V) of all steps, the first polygon (F',) that each comes from; the steps."""
     count = topology.vertex_count
     every = np.arange(count)
     matrix = SparseMatrix.from_entries(every, every, np.ones(count), (count, count))
     parents = np.arange(topology.polygon_count)
+    steps = []
     for _ in range(levels):
-        step = refine(topology)
-        topology, parents = step.topology, parents[step.polygon_parent]
-        matrix = _product(step.matrix, matrix)
-    return topology, matrix, parents
+        steps.append(refine(topology))
+        topology, parents = steps[-1].topology, parents[steps[-1].polygon_parent]
+        matrix = _product(steps[-1].matrix, matrix)
+    return topology, matrix, parents, tuple(steps)
 
 
 def _product(second: SparseMatrix, first: SparseMatrix) -> SparseMatrix:

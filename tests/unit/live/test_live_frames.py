@@ -158,6 +158,20 @@ def test_flat_polygons_and_colours_of_polygons_are_named(by_polygon):
         np.testing.assert_allclose(fine.colors[corners].mean(axis=1), means[plan.triangle_front[:, 0]])
 
 
+def test_colours_that_flow_into_one_another_are_those_of_the_surface():
+    topology, points = cube(subdivide=True)
+    topology = replace(topology, tints=np.array([0, 0, 0, 0, -1, 1]))
+    mesh = Mesh(topology, points, np.random.default_rng(2).random((6, 3)))
+    frames = MeshFrames(mesh, Scene(subdivide=2))
+    fine = subdivide(mesh, 2)
+    arrays = frames.arrays()
+    np.testing.assert_array_equal(arrays["colors"], to_srgb(fine.colors))
+    numbers = arrays["vertex_colors"][arrays["triangles"]].reshape(-1, 3)
+    np.testing.assert_array_equal(numbers, np.repeat(fine.topology.polygon_of_triangle[:, None], 3, axis=1))
+    same, other = frames.encode(mesh), frames.encode(replace(mesh, colors=np.roll(mesh.colors, 1, axis=0)))
+    assert len(same) < len(other)
+
+
 def test_a_setup_without_subdivision_has_nothing_to_refine():
     facts, arrays = read_setup(encoder_of("head", subdivide=0).setup)
     assert facts["points"] == facts["refined_points"]

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from mien.core import Mesh, ParameterTable, Pose, Preset, Rig, Topology
+from mien.core import Mesh, ParameterTable, Pose, Preset, Rig, Topology, exact
 from mien.core.interpolation import cage_through
 from mien.core.mesh import Ints, Points
 
@@ -102,6 +102,15 @@ class KeyposeFace:
         return 0.0, y, z
 
     @cached_property
+    def neck_share(self) -> Floats | float:
+        """(V,) how much of the head's turns each vertex goes; 1 where all is one rigid piece."""
+        neck = self.keypose.neck
+        if neck is None:
+            return 1.0
+        height = self._skin.places(self.keypose.places[0])[:, 1]
+        return exact.smoothstep((height - neck[0]) / (neck[1] - neck[0]))
+
+    @cached_property
     def eyeballs(self) -> Mapping[str, tuple[Ints, Vector]]:
         """``left`` and ``right``: the vertices of an eye that turns, and its centre; empty if there is none."""
         eyes = self.keypose.eyes
@@ -125,9 +134,8 @@ class KeyposeFace:
         points[:] = self._blend.place(number, weights)
         for side, (vertices, center) in self.eyeballs.items():
             turn, nod = (float(values[self.parameters.index[f"eye.{way}.{side}"]]) for way in ("turn", "nod"))
-            turn_rigidly(points, vertices, center, turn, nod, 0.0)
-        turn, nod, tilt = values[rows.head].tolist()
-        turn_rigidly(points, slice(None), self.pivot, turn, nod, tilt)
+            turn_rigidly(points, vertices, center, (turn, nod, 0.0))
+        turn_rigidly(points, slice(None), self.pivot, values[rows.head].tolist(), self.neck_share)
 
     # ---------------------------------------------------------------- constants
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -79,6 +79,7 @@ def _join(settings: Settings, topology: KeyposeTopology, places: Points, folder:
         settings.sided,
         settings.pivot,
         eyes,
+        settings.neck,
     )
 
 
@@ -175,7 +176,7 @@ def _settings_text(keypose: Keypose) -> str:
     def text(value: str) -> str:
         return json.dumps(value, ensure_ascii=False)  # what TOML takes as well
 
-    def place(vector: tuple[float, float, float]) -> str:
+    def place(vector: Iterable[float]) -> str:
         return "[" + ", ".join(repr(round(x / UNITS_M[keypose.unit], 9)) for x in vector) + "]"
 
     lines = [f'format = "{FORMAT}"', f"version = {VERSION}", f"name = {text(keypose.name)}"]
@@ -184,6 +185,7 @@ def _settings_text(keypose: Keypose) -> str:
     lines.append(f"mirror = {str(keypose.mirror).lower()}")
     lines += [f"sided = [{', '.join(map(text, keypose.sided))}]"] if keypose.sided else []
     lines += [f"pivot = {place(keypose.pivot)}"] if keypose.pivot else []
+    lines += [f"neck = {place(keypose.neck)}"] if keypose.neck else []
     if keypose.eyes:
         lines += ["", "[eyes]", f"part = {text(keypose.eyes.part)}", f"center = {place(keypose.eyes.center)}"]
     if keypose.stands_for:

@@ -39,11 +39,19 @@ class Polygon:
 
 @dataclass(frozen=True)
 class SkinPart:
-    """Polygons of one material."""
+    """Polygons of one material.
+
+    Attributes:
+        name: ``skin``.
+        polygons: in the order of the file.
+        material: how they take the light, and whether they are subdivided.
+        blend: where they are subdivided, colours of neighbours flow into one another that are nearly the same.
+    """
 
     name: str
     polygons: tuple[Polygon, ...]
     material: Material = PLAIN
+    blend: bool = False
 
 
 @dataclass(frozen=True)
@@ -104,6 +112,7 @@ class Keypose:
         stands_for: own name of a phase -> the standard one that it stands for.
         sided: phases besides the standard ones that either side of the face can show for itself.
         pivot: (x, y, z) m, what the head turns about; None is the middle of the face at rest.
+        neck: heights m, at rest, below which nothing turns with the head, and above which all does; None if all does.
         eyes: eyeballs that turn; None where they are part of the skin.
     """
 
@@ -118,6 +127,7 @@ class Keypose:
     sided: tuple[str, ...] = ()
     pivot: Vector | None = None
     eyes: Eyes | None = None
+    neck: tuple[float, float] | None = None
 
     @cached_property
     def on_midline(self) -> NDArray[np.bool_]:

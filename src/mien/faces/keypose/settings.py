@@ -17,7 +17,7 @@ from .standard import standard_phases
 
 FORMAT, VERSION = "mien-keypose", 1
 KEYS = (
-    "format", "version", "name", "doc", "unit", "phases", "mirror", "stands_for", "sided", "pivot", "eyes",
+    "format", "version", "name", "doc", "unit", "phases", "mirror", "stands_for", "sided", "pivot", "neck", "eyes",
 )  # fmt: skip
 PHASE_NAME = re.compile(r"[a-z][a-z0-9_]*")
 TAKEN = "number"
@@ -39,6 +39,7 @@ class Settings:
     sided: tuple[str, ...] = ()
     pivot: Vector | None = None
     eyes: Eyes | None = None
+    neck: tuple[float, float] | None = None
 
 
 def read_settings(path: Path, text: str) -> Settings:
@@ -84,6 +85,7 @@ def _settings(record: Mapping[str, Any]) -> Settings:
         sided,
         pivot,
         _eyes(_typed(record, "eyes", dict, {}), unit) if "eyes" in record else None,
+        _neck(record["neck"], unit) if "neck" in record else None,
     )
 
 
@@ -129,13 +131,26 @@ def _names(value: object, key: str) -> tuple[str, ...]:
     return tuple(value)
 
 
+def _neck(value: object, unit: str) -> tuple[float, float]:
+    heights = _numbers(value, unit)
+    if len(heights) != 2 or not heights[0] < heights[1]:
+        raise MienError(f"neck: want [height where nothing turns, height where all does] in {unit}, got {value!r}")
+    return heights[0], heights[1]
+
+
 def _vector(value: object, key: str, unit: str) -> Vector:
-    if isinstance(value, list) and len(value) == 3:
-        numbers = [x for x in value if isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x)]
-        if len(numbers) == 3:
-            x, y, z = (float(number) * UNITS_M[unit] for number in numbers)
-            return x, y, z
-    raise MienError(f"{key}: want [x, y, z] in {unit}, got {value!r}")
+    place = _numbers(value, unit)
+    if len(place) != 3:
+        raise MienError(f"{key}: want [x, y, z] in {unit}, got {value!r}")
+    return place[0], place[1], place[2]
+
+
+def _numbers(value: object, unit: str) -> list[float]:
+    """The numbers of a list in metres; none if something else is among them."""
+    numbers = value if isinstance(value, list) else []
+    if not all(isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x) for x in numbers):
+        return []
+    return [float(number) * UNITS_M[unit] for number in numbers]
 
 
 def _typed(record: Mapping[str, Any], key: str, kind: type, default: Any) -> Any:

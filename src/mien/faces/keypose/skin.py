@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from mien.core import Part, Topology, exact
 from mien.core.creases import double_creases
 from mien.core.mesh import Ints, Points
 
-from .records import Keypose
+from .records import Keypose, edges_of
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
 
@@ -48,7 +48,7 @@ class Skin:
 
 def make_skin(keypose: Keypose) -> Skin:
     """The whole face that the files describe."""
-    rows, parts, colors = _polygons(keypose)
+    rows, origin, parts = _polygons(keypose)
     twin = _twins(keypose)
     lines = [[number - 1 for number in line] for line in keypose.topology.creases]
     if keypose.mirror:
@@ -67,8 +67,9 @@ def make_skin(keypose: Keypose) -> Skin:
         np.cumsum([0, *map(len, cut)]),
         tuple(parts),
         _corners(rows, edges, source),
+        _tints(keypose, rows, origin),
     )
-    shades = np.array(colors)
+    shades = np.array([linear_color(keypose.topology.polygons[number].color) for number in origin])
     shades.flags.writeable = False
     mirror = _mirrored(cut, parts, len(source)) if keypose.mirror else np.full(len(source), -1)
     return Skin(topology, shades, point[source], sign[source], mirror)
@@ -80,28 +81,32 @@ def split_left(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return exact.smoothstep(0.5 + x / (2.0 * BLEND_SHARE * width))
 
 
+NEAR_CODES = 24
+"""Colours that differ by no more than this in red, green and blue, of 255, flow into one another."""
+
 BLEND_SHARE = 0.12
 """Half the width of the strip in which the halves share what one of them does, as a share of half the face's width."""
 
 
-def _polygons(keypose: Keypose) -> tuple[list[list[int]], list[Part], list[list[float]]]:
-    """Vertices of all polygons, the parts, and linear colours; of each part the measured half, then its image."""
+def _polygons(keypose: Keypose) -> tuple[list[list[int]], list[int], list[Part]]:
+    """Vertices of all polygons, the polygon of the file that each is, the parts; of a part the half, then its image."""
     twin = _twins(keypose)
     rows: list[list[int]] = []
+    origin: list[int] = []
     parts: list[Part] = []
-    colors: list[list[float]] = []
+    start = 0
     for part in keypose.topology.parts:
-        first = len(rows)
+        first, numbers = len(rows), range(start, start + len(part.polygons))
         left = [[number - 1 for number in polygon.points] for polygon in part.polygons]
         rows += [row[::-1] for row in left]
-        tints = [linear_color(polygon.color) for polygon in part.polygons]
-        colors += tints
+        origin += numbers
         if keypose.mirror:
             rows += [[int(twin[number]) for number in row] for row in left]
-            colors += tints
+            origin += numbers
         if len(rows) > first:
             parts.append(Part(part.name, first, len(rows), part.material))
-    return rows, parts, colors
+        start += len(part.polygons)
+    return rows, origin, parts
 
 
 def _twins(keypose: Keypose) -> Ints:
@@ -132,6 +137,38 @@ def _corners(rows: Sequence[Sequence[int]], edges: Sequence[tuple[int, int]], so
     return np.stack([numbers, numbers], axis=1)
 
 
+def _tints(keypose: Keypose, rows: Sequence[Sequence[int]], origin: Sequence[int]) -> Ints | None:
+    """(F,) a number for polygons whose colours flow into one another, -1 for others; None if none do.
+
+    Neighbours of one part whose colours are nearly the same have one number, and so on from neighbour to neighbour.
+    """
+    topology = keypose.topology
+    part = [number for number, part in enumerate(topology.parts) for _ in part.polygons]
+    flows = [topology.parts[part[number]].blend for number in origin]
+    if not any(flows):
+        return None
+    codes = [_codes(topology.polygons[number].color) for number in origin]
+    at_edge: dict[frozenset[int], list[int]] = {}
+    for number, row in enumerate(rows):
+        for edge in edges_of(row) if flows[number] else ():
+            at_edge.setdefault(edge, []).append(number)
+    tints = [number if flow else -1 for number, flow in enumerate(flows)]
+    near = [
+        (one, other)
+        for one, other in (pair for around in at_edge.values() for pair in combinations(around, 2))
+        if part[origin[one]] == part[origin[other]]
+        and max(abs(a - b) for a, b in zip(codes[one], codes[other], strict=True)) <= NEAR_CODES
+    ]
+    changed = True
+    while changed:
+        changed = False
+        for one, other in near:
+            if tints[one] != tints[other]:
+                tints[one] = tints[other] = min(tints[one], tints[other])
+                changed = True
+    return np.array(tints)
+
+
 def _mirrored(cut: Sequence[Sequence[int]], parts: Sequence[Part], count: int) -> Ints:
     """(V,) of vertices, from the polygons: the image of a polygon goes around it the other way."""
     mirror = np.zeros(count, dtype=np.int64)
@@ -145,4 +182,8 @@ def _mirrored(cut: Sequence[Sequence[int]], parts: Sequence[Part], count: int) -
 
 def linear_color(code: str) -> list[float]:
     """Linear RGB 0..1 of ``#rrggbb``."""
-    return [exact.srgb_to_linear(int(code[k : k + 2], 16) / 255.0) for k in (1, 3, 5)]
+    return [exact.srgb_to_linear(each / 255.0) for each in _codes(code)]
+
+
+def _codes(color: str) -> list[int]:
+    return [int(color[k : k + 2], 16) for k in (1, 3, 5)]

@@ -31,7 +31,7 @@ def keypose_table(keypose: Keypose) -> ParameterTable:
     aliases = {"phase": NUMBER} if count > 1 else {}
     for own, name in keypose.stands_for.items():
         if own != keypose.phases[0]:
-            sides = (".left", ".right") if standard_phases()[name].sided else ("",)
+            sides = ("", ".left", ".right") if standard_phases()[name].sided else ("",)
             aliases |= {f"phase.{own}{side}": f"phase.{name}{side}" for side in sides}
     return ParameterTable(tuple(rows), aliases)
 

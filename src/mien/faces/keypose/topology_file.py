@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,6 +21,8 @@ COLOR = re.compile(r"#[0-9a-fA-F]{6}")
 PART_NAME = re.compile(r"[A-Za-z][\w.-]*")
 MOST_POINTS = 100_000
 """More than anybody measures by hand; a number beyond it is a slip."""
+
+BLEND = "blend"
 
 FLAGS: Mapping[str, tuple[str, bool]] = {
     "two-sided": ("two_sided", True),
@@ -47,7 +49,7 @@ def format_topology(topology: KeyposeTopology) -> str:
     """The text of a topology file."""
     lines: list[str] = []
     for part in topology.parts:
-        lines.append(" ".join(["part", part.name, *_material_words(part.material)]))
+        lines.append(" ".join(["part", part.name, *_material_words(part.material), *([BLEND] if part.blend else [])]))
         lines += [" ".join([*map(str, polygon.points), polygon.color]) for polygon in part.polygons]
         lines.append("")
     if topology.midline:
@@ -61,16 +63,19 @@ class _Draft:
     """A topology while its file is read."""
 
     path: Path
-    parts: list[tuple[str, Material, list[Polygon]]] = field(default_factory=list)
+    parts: list[SkinPart] = field(default_factory=list)
+    polygons: list[list[Polygon]] = field(default_factory=list)
     midline: dict[int, int] = field(default_factory=dict)
     creases: list[tuple[tuple[int, ...], int]] = field(default_factory=list)
 
     def add_part(self, words: list[str], line: int) -> None:
         if len(words) < 2 or not PART_NAME.fullmatch(words[1]):
             raise LoadError(self.path, f"want 'part NAME', got {' '.join(words)!r}", line=line)
-        if words[1] in (name for name, *_ in self.parts):
+        if words[1] in (part.name for part in self.parts):
             raise LoadError(self.path, f"part {words[1]!r} is there twice", line=line)
-        self.parts.append((words[1], self._material(words[2:], line), []))
+        flags = [word for word in words[2:] if word != BLEND]
+        self.parts.append(SkinPart(words[1], (), self._material(flags, line), BLEND in words))
+        self.polygons.append([])
 
     def _material(self, words: list[str], line: int) -> Material:
         fields: dict[str, object] = {}
@@ -85,7 +90,7 @@ class _Draft:
                 name, value = FLAGS[word]
                 fields[name] = value
             else:
-                known = ", ".join(["gloss NUMBER", *FLAGS])
+                known = ", ".join(["gloss NUMBER", *FLAGS, BLEND])
                 raise LoadError(self.path, f"{word!r} is nothing that a part can be", line=line, hint=f"it is {known}")
         return Material(**fields)  # type: ignore[arg-type]
 
@@ -101,7 +106,7 @@ class _Draft:
         if len(set(points)) != len(points):
             twice = next(point for point in points if points.count(point) > 1)
             raise LoadError(self.path, f"point {twice} is twice in one polygon", line=line)
-        self.parts[-1][2].append(Polygon(points, words[-1].lower(), line))
+        self.polygons[-1].append(Polygon(points, words[-1].lower(), line))
 
     def add_midline(self, words: list[str], line: int) -> None:
         for point in self._numbers(words[1:], line):
@@ -121,7 +126,7 @@ class _Draft:
 
     def finish(self) -> KeyposeTopology:
         """The topology, when it is whole."""
-        parts = tuple(SkinPart(name, tuple(polygons), material) for name, material, polygons in self.parts)
+        parts = tuple(replace(part, polygons=tuple(own)) for part, own in zip(self.parts, self.polygons, strict=True))
         topology = KeyposeTopology(parts, tuple(self.midline), tuple(points for points, _ in self.creases))
         if not topology.polygons:
             raise LoadError(self.path, "has no polygon", hint="part skin, and a line such as 1 2 3 #e0ac96")

@@ -18,14 +18,26 @@ STEPS: Sequence[tuple[int, int, float]] = ((0, 1, -1.0), (1, 2, -1.0), (2, 0, 1.
 
 
 def turn_rigidly(
-    points: Points, vertices: Ints | slice, pivot: Sequence[float], turn_deg: float, nod_deg: float, tilt_deg: float
+    points: Points,
+    vertices: Ints | slice,
+    pivot: Sequence[float],
+    angles_deg: Sequence[float],
+    share: Floats | float = 1.0,
 ) -> None:
-    """Tilt some of the points (V, 3) m towards the own left, nod them upwards, then turn them to the own left."""
-    if turn_deg == 0.0 and nod_deg == 0.0 and tilt_deg == 0.0:
+    """Turn some of the points (V, 3) m about a pivot.
+
+    Args:
+        points: all; those that are chosen are changed in place.
+        vertices: which, N of them.
+        pivot: (x, y, z) m.
+        angles_deg: turn to the own left, nod upwards, tilt towards the own left; the tilt comes first.
+        share: (N,) how much of the angles each of them goes.
+    """
+    if not any(angles_deg):
         return
     columns = [points[vertices, axis] - pivot[axis] for axis in range(3)]
-    for (first, second, sense), angle_deg in zip(STEPS, (tilt_deg, nod_deg, turn_deg), strict=True):
-        sine, cosine = map(float, exact.sin_cos(sense * angle_deg * (math.pi / 180.0)))
+    for (first, second, sense), angle_deg in zip(STEPS, angles_deg[::-1], strict=True):
+        sine, cosine = exact.sin_cos(share * (sense * angle_deg * (math.pi / 180.0)))
         a, b = columns[first], columns[second]
         columns[first], columns[second] = a * cosine - b * sine, a * sine + b * cosine
     for axis, column in enumerate(columns):
