@@ -199,4 +199,6 @@ def _solve_pair(survey: Survey, pair: Pair) -> Solution:
         midline=pair.midline,
         mirror=pair.mirror,
         twins=pair.twins or None,
+        side_from=pair.side_from,
+        side_turn_deg=pair.side_turn_deg,
     )

@@ -103,10 +103,14 @@ class Keys:
             raise self.mistake(key, f"has {twice!r} more than once")
         return tuple(values)
 
-    def lengths(self, key: str) -> dict[str, float]:
-        """Numbers above 0 by name; none where the key is left out."""
+    def lengths(self, key: str) -> dict[str, tuple[float, ...]]:
+        """Numbers above 0 by name, each with its standard deviation if it was told; none where the key is left out."""
         values = self.take(key, dict, 'numbers by name, { "a" = 1.5 }', {})
-        return {name: self._length(f"{key}.{name}", value) for name, value in values.items()}
+        found = {}
+        for name, value in values.items():
+            parts = value if isinstance(value, list) and len(value) == 2 else [value]
+            found[name] = tuple(self._length(f"{key}.{name}", part) for part in parts)
+        return found
 
     def names(self, key: str) -> dict[str, str]:
         """Texts by name; none where the key is left out."""

@@ -56,6 +56,10 @@ class Board:
         return self.columns - 1, self.rows - 1
 
 
+DISTANCE_SIGMA_M = 0.02
+"""How exact a distance of a camera is where nothing is told: a tape measure, held to where the lens might begin."""
+
+
 @dataclass(frozen=True)
 class Pair:
     """A front and a side photograph without references, as of 1972.
@@ -63,21 +67,26 @@ class Pair:
     Attributes:
         front, side: names of the photographs.
         scale: two points and how far they are apart, m; without it the size is arbitrary.
-        camera_distance_m: of the camera from the subject, by photograph, where it was measured.
+        camera_distance_m: by photograph, where it was measured: from the lens to the nearest point, and its standard
+            deviation.
         orthographic: as if the cameras stood infinitely far away.
         midline: points on the symmetry plane.
         mirror: one half was measured, and the other is its mirror image.
         twins: points by the name of their mirror image.
+        side_from: the face's own side that the side photograph shows; found where it is not told.
+        side_turn_deg: standard deviation of how far the side photograph is turned from exact profile.
     """
 
     front: str
     side: str
     scale: tuple[str, str, float] | None = None
-    camera_distance_m: Mapping[str, float] = field(default_factory=dict)
+    camera_distance_m: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     orthographic: bool = False
     midline: tuple[str, ...] = ()
     mirror: bool = True
     twins: Mapping[str, str] = field(default_factory=dict)
+    side_from: str | None = None
+    side_turn_deg: float = 3.0
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from mien.core import LoadError, UnknownNameError
 from .photographs import photograph_size
 from .project_keys import Keys, read_keys
 from .project_points import shorten
-from .project_records import KINDS, METRES, PICTURES, PROJECT, Board, Pair, Project
+from .project_records import DISTANCE_SIGMA_M, KINDS, METRES, PICTURES, PROJECT, Board, Pair, Project
 from .records import REST, Photograph
 
 FORMAT, VERSION = "mien-capture", 1
@@ -163,11 +163,16 @@ def _read_pair(keys: Keys, names: Collection[str], metres: float) -> Pair:
         front=front,
         side=side,
         scale=_read_scale(keys, metres),
-        camera_distance_m={name: distance * metres for name, distance in distances.items()},
+        camera_distance_m={
+            name: (distance * metres, sigma[0] * metres if sigma else DISTANCE_SIGMA_M)
+            for name, (distance, *sigma) in distances.items()
+        },
         orthographic=keys.flag("orthographic", False),
         midline=keys.strings("midline"),
         mirror=keys.flag("mirror", True),
         twins=keys.names("twins"),
+        side_from=keys.choice("side_from", ("left", "right", ""), "") or None,
+        side_turn_deg=keys.length("side_turn_deg", 3.0),
     )
     return _finished(keys, pair)
 
@@ -233,11 +238,15 @@ def _pair_keys(pair: Pair, unit: float) -> dict[str, object]:
         "front": pair.front,
         "side": pair.side,
         "scale": [] if pair.scale is None else [*pair.scale[:2], shorten(pair.scale[2], unit)],
-        "camera_distance": {name: shorten(distance, unit) for name, distance in pair.camera_distance_m.items()},
+        "camera_distance": {
+            name: [shorten(part, unit) for part in parts] for name, parts in pair.camera_distance_m.items()
+        },
         "orthographic": pair.orthographic,
         "midline": list(pair.midline),
         "mirror": pair.mirror,
         "twins": dict(pair.twins),
+        "side_from": pair.side_from or "",
+        "side_turn_deg": pair.side_turn_deg,
     }
 
 
