@@ -92,10 +92,13 @@ def worst(network: Network, refined: Refined, judgement: Judgement) -> Ints:
     for number in ranked[statistics[ranked] >= least]:
         seen = int(order[number])
         photo, point = int(network.photo_of[seen]), int(network.point_of[seen])
-        if photo in photos or point in points:
+        if point in points:
+            continue
+        # Not its second worst either, while the worst has to wait for another of its photograph.
+        points.add(point)
+        if photo in photos:
             continue
         photos.add(photo)
-        points.add(point)
         if not network.known[point] and counts[point] == 2:
             taken += order[network.point_of[order] == point].tolist()
         else:

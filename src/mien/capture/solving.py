@@ -160,8 +160,8 @@ def _solution(solved: _Solved) -> Solution:
     network, state = refined.problem.network, refined.state
     active = refined.problem.active
     covariances = judgement.covariances
-    cost_per_degree = refined.equations.cost / judgement.redundancy if judgement.redundancy > 0.5 else 1.0
-    factor = cost_per_degree if judgement.scale != 1.0 else 1.0
+    chi2_per_degree = refined.equations.chi2 / judgement.redundancy if judgement.redundancy > 0.5 else 1.0
+    factor = chi2_per_degree if judgement.scale != 1.0 else 1.0
     photos = sorted(set(network.photo_of[active].tolist()))
     cameras: dict[str, Camera] = {
         network.photo_name(photo): state.camera(
@@ -184,7 +184,7 @@ def _solution(solved: _Solved) -> Solution:
         points=_points(network, refined, covariances, factor),
         residuals=tuple(residuals[number] for number in sorted(residuals)),
         suspects=tuple(suspects),
-        chi2_per_dof=cost_per_degree,
+        chi2_per_dof=chi2_per_degree,
         remarks=tuple(remarks),
     )
 
