@@ -6,53 +6,39 @@ weighted means of a vertex and those around it, and the linear system for the ca
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import exact
 from .mesh import Topology
 from .sparse import SparseMatrix, sort_pairs
-from .subdivision import CORNER, Refinement, refine
+from .subdivision import CORNER, refine
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-STEP = 1.5
-"""Share of what is missing that a round adds: the rounds shrink what is missing while the weights of the limit have
-eigenvalues between 0 and 4/3; those of a regular mesh lie between 1/9 and 1."""
+LEAST, MOST = 0.08, 1.2
+"""Eigenvalues of the weights of the limit: those of a regular mesh lie between 1/9 and 1, and seldom others beyond."""
 
-NEAR_M = 1e-9
+ROUND = 8
+"""Steps of a round; their lengths shrink what is missing most evenly between ``LEAST`` and ``MOST``."""
+
+NEAR_M = 1e-7
 """The surface passes that close to the points."""
 
-MOST_ROUNDS = 400
+MOST_ROUNDS = 40
 
-ENOUGH = 0.99
-"""A round that leaves more than this share of what was missing is not worth moving the cage further: where no surface
-passes through the points, it would go on without end."""
-
-
-@dataclass(frozen=True, eq=False)
-class Limit:
-    """Where the vertices of a cage come to lie when it is subdivided without end.
-
-    Attributes:
-        step: one step of subdivision.
-        means: (V, V') limit positions as means of the points of that step.
-    """
-
-    step: Refinement
-    means: SparseMatrix
-
-    def apply(self, values: Floats) -> Floats:
-        """(V, K) limits of vertex values (V, K)."""
-        return self.means.apply(self.step.matrix.apply(values))
+ENOUGH = 0.9
+"""A round that leaves more than this share of what was missing is not worth moving the cage: where no surface passes
+through the points, it would go on without end."""
 
 
 @lru_cache(maxsize=8)
-def limit_of(topology: Topology) -> Limit:
-    """The limit of a topology, of the parts that are subdivided; other vertices stay.
+def limit_of(topology: Topology) -> SparseMatrix:
+    """(V, V) where the vertices of a cage come to lie when it is subdivided without end; vertices of other parts stay.
 
     It is exact where no single sharp edge ends at a vertex.
     """
@@ -78,7 +64,7 @@ def limit_of(topology: Topology) -> Limit:
     weights = [own, 4.0 * weight[ends[edge, 0]], weight[vertex[face]], np.full(int(curve.sum()), 1.0 / 6.0)]
     size = (count, fine.vertex_count)
     means = SparseMatrix.from_entries(np.concatenate(rows), np.concatenate(columns), np.concatenate(weights), size)
-    return Limit(step, means)
+    return means.after(step.matrix)
 
 
 def _edges(first: Ints, second: Ints, fine: Topology) -> tuple[Ints, NDArray[np.bool_]]:
@@ -97,15 +83,35 @@ def cage_through(topology: Topology, points: Floats) -> tuple[Floats, float]:
 
     The distance is that of the coordinate that is missed most, m. It is below ``NEAR_M`` but for topologies, such as
     two polygons back to back, that no surface can pass through.
+
+    Source: Richardson's iteration with the lengths of Chebyshev (Golub and Varga 1961): products only, so that every
+    machine finds the same bits.
     """
-    limit = limit_of(topology)
-    cage, best, least = points, points, float("inf")
+    limit, lengths = limit_of(topology), _lengths()
+    best, least = points, _most(points - limit.apply(points))
     for _ in range(MOST_ROUNDS):
-        missing = points - limit.apply(cage)
-        most = float(np.abs(missing).max(initial=0.0))
-        if most < ENOUGH * least:
-            best, least = cage, most
-        if not NEAR_M < most < 1e3:
+        if least <= NEAR_M:
             break
-        cage = cage + STEP * missing
+        cage = best
+        for length in lengths:
+            cage = cage + length * (points - limit.apply(cage))
+        missed = _most(points - limit.apply(cage))
+        if not missed < ENOUGH * least:
+            break
+        best, least = cage, missed
     return best, least
+
+
+def _most(values: Floats) -> float:
+    return float(np.abs(values).max(initial=0.0))
+
+
+def _lengths() -> list[float]:
+    """The steps of a round: one divided by each zero of a Chebyshev polynomial between ``LEAST`` and ``MOST``.
+
+    Long steps and short ones take turns, so that rounding does not grow.
+    """
+    angles = math.pi * (2.0 * np.arange(ROUND) + 1.0) / (2.0 * ROUND)
+    zeros = 0.5 * (MOST + LEAST) + 0.5 * (MOST - LEAST) * exact.cos(angles)
+    order = [k for pair in zip(range(ROUND // 2), range(ROUND - 1, -1, -1), strict=False) for k in pair]
+    return [1.0 / float(zeros[k]) for k in order]

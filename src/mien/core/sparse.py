@@ -76,6 +76,16 @@ class SparseMatrix:
             passes.append((self.columns[entries], self.weights[entries][:, None]))
         return order, passes
 
+    def after(self, first: SparseMatrix) -> SparseMatrix:
+        """The matrix that does what ``first`` and then this one do."""
+        counts = np.diff(first.starts)[self.columns]
+        row = np.repeat(np.arange(self.shape[0]), np.diff(self.starts))
+        before = np.cumsum(counts) - counts
+        entries = np.repeat(first.starts[self.columns] - before, counts) + np.arange(int(counts.sum()))
+        weights = np.repeat(self.weights, counts) * first.weights[entries]
+        shape = (self.shape[0], first.shape[1])
+        return SparseMatrix.from_entries(np.repeat(row, counts), first.columns[entries], weights, shape)
+
     def apply(self, values: Floats) -> Floats:
         """(rows, K) products with values (columns, K), each summed from the lowest column to the highest."""
         order, passes = self._diagonals

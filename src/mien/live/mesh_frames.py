@@ -202,19 +202,8 @@ def _refine(topology: Topology, levels: int) -> tuple[Topology, SparseMatrix, In
     for _ in range(levels):
         steps.append(refine(topology))
         topology, parents = steps[-1].topology, parents[steps[-1].polygon_parent]
-        matrix = _product(steps[-1].matrix, matrix)
+        matrix = steps[-1].matrix.after(matrix)
     return topology, matrix, parents, tuple(steps)
-
-
-def _product(second: SparseMatrix, first: SparseMatrix) -> SparseMatrix:
-    """The matrix that does what ``first`` and then ``second`` do."""
-    counts = np.diff(first.starts)[second.columns]
-    row = np.repeat(np.arange(second.shape[0]), np.diff(second.starts))
-    before = np.cumsum(counts) - counts
-    entries = np.repeat(first.starts[second.columns] - before, counts) + np.arange(int(counts.sum()))
-    weights = np.repeat(second.weights, counts) * first.weights[entries]
-    shape = (second.shape[0], first.shape[1])
-    return SparseMatrix.from_entries(np.repeat(row, counts), first.columns[entries], weights, shape)
 
 
 def _parts(topology: Topology, gloss: float) -> list[dict[str, Any]]:

@@ -33,7 +33,7 @@ def test_inside_a_board_the_limit_has_the_weights_of_bicubic_b_splines():
 def test_deep_subdivision_of_the_cage_comes_to_the_points(creases):
     topology, points = board(5, creases), rough(5)
     cage, missed = cage_through(topology, points)
-    assert missed <= 1e-9
+    assert missed <= 1e-7
     mesh = subdivide(Mesh(topology, cage, np.ones((25, 3))), 5)
     inside = np.setdiff1d(np.arange(25), [6, 8] if creases is not None else [])  # a crease that ends is nearly met
     np.testing.assert_allclose(mesh.points[:25][inside], points[inside], atol=2e-4)
@@ -46,8 +46,8 @@ def test_triangles_and_fans_are_met_too():
     fans = np.array([[0, 1 + k, 1 + (k + 1) % count] for k in range(count)])
     topology = build_topology(count + 1, [("fan", fans, SMOOTH)])
     cage, missed = cage_through(topology, points)
-    assert missed <= 1e-9
-    np.testing.assert_allclose(limit_of(topology).apply(cage), points, atol=1e-9)
+    assert missed <= 1e-7
+    np.testing.assert_allclose(limit_of(topology).apply(cage), points, atol=1e-7)
 
 
 def test_a_corner_is_left_where_it_is():

@@ -50,8 +50,10 @@ class Blend:
     def __init__(self, places: Points, left: Floats) -> None:
         self.rest, self._left = places[0], left[:, None]
         self.moves = places - self.rest
-        self._room = np.maximum(self.moves.max(axis=0), 0.0), np.maximum((-self.moves).max(axis=0), 0.0)
-        self._shares = tuple(np.where(room > 0.0, 1.0 / np.where(room > 0.0, room, 1.0), 0.0) for room in self._room)
+        ways = _two_ways(self.moves)
+        self._room = ways.max(axis=0)
+        self._shares = np.where(self._room > 0.0, 1.0 / np.where(self._room > 0.0, self._room, 1.0), 0.0)
+        self._pushes = ways * self._shares
 
     def place(self, number: float, weights: Floats) -> Points:
         """(V, 3) m of the vertices.
@@ -60,21 +62,22 @@ class Blend:
             number: of a phase, 1..K.
             weights: (K, 2) of each phase on the left and on the right half; the first row is not used.
         """
-        ways = np.zeros_like(self.rest), np.zeros_like(self.rest)
+        gone = np.zeros_like(self._room)
         previous, share = split_number(number, len(self.moves))
         if share > 0.0:
             move = self.moves[previous] + share * (self.moves[previous + 1] - self.moves[previous])
-            self._push(ways, move)
+            gone += _two_ways(move) * self._shares
         elif previous > 0:
-            self._push(ways, self.moves[previous])
+            gone += self._pushes[previous]
         for phase in np.flatnonzero(weights[1:].any(axis=1)) + 1:
             left, right = weights[phase].tolist()
             weight = left if left == right else right + (left - right) * self._left
-            self._push(ways, weight * self.moves[phase])
-        up, down = ways
+            push = weight * self._pushes[phase]
+            gone += push - push * gone
+        up, down = self._room * gone
         return self.rest + (up - down)
 
-    def _push(self, ways: tuple[Points, Points], move: Points) -> None:
-        for way, share, sign in zip(ways, self._shares, (1.0, -1.0), strict=True):
-            push = np.maximum(sign * move, 0.0)
-            way += push - way * (push * share)
+
+def _two_ways(moves: Points) -> Points:
+    """(…, 2, V, 3) m, the parts of moves (…, V, 3) along and against the axes, both 0 or more."""
+    return np.maximum(np.stack([moves, -moves], axis=-3), 0.0)

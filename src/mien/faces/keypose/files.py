@@ -10,6 +10,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -113,13 +114,15 @@ def _check_outside(folder: Path, keypose: Keypose) -> None:
     middle = (rest.min(axis=0) + rest.max(axis=0)) * 0.5
     if keypose.mirror:
         middle[0] = 0.0
-    facing, size = 0.0, 0.0
-    for part in keypose.topology.parts:
-        for polygon in part.polygons if not part.material.two_sided else ():
-            around = rest[np.array(polygon.points) - 1] - middle
-            normal = np.cross(around[2:] - around[0], around[1:-1] - around[0]).sum(axis=0)
-            outwards = float(normal @ around.mean(axis=0))
-            facing, size = facing + outwards, size + abs(outwards)
+    fans = [
+        (polygon.points[0], one, other)
+        for part in keypose.topology.parts
+        for polygon in (part.polygons if not part.material.two_sided else ())
+        for one, other in pairwise(polygon.points[1:])
+    ]
+    a, b, c = (rest[np.array(fans, dtype=np.int64).reshape(-1, 3) - 1] - middle).transpose(1, 0, 2)
+    outwards = (np.cross(c - a, b - a) * (a + b + c)).sum(axis=1)
+    facing, size = float(outwards.sum()), float(np.abs(outwards).sum())
     if facing < INSIDE_OUT * size:
         raise LoadError(
             folder / TOPOLOGY, "is inside out", hint="go around every polygon clockwise as seen from outside"

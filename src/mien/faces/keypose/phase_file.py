@@ -34,15 +34,16 @@ def read_phase(path: Path, count: int, unit: str = "mm") -> Points:
     Raises:
         LoadError: with the line that is wrong; a point is missing, twice there or not in the topology.
     """
-    places = np.full((count, 3), np.nan)
+    places: list[tuple[float, ...]] = [()] * count
     seen: dict[int, int] = {}
+    most = MOST_M / UNITS_M[unit]
     for line, words in read_lines(path):
         point, place = _parse(path, words, line, count)
         if point in seen:
             raise LoadError(path, f"point {point} is in line {seen[point]} already", line=line)
         seen[point] = line
-        places[point - 1] = [number * UNITS_M[unit] for number in place]
-        if np.abs(places[point - 1]).max() >= MOST_M:
+        places[point - 1] = place
+        if max(map(abs, place)) >= most:
             raise LoadError(
                 path, f"point {point} is a metre or more from the middle", line=line, hint=f"is the unit {unit}?"
             )
@@ -54,7 +55,7 @@ def read_phase(path: Path, count: int, unit: str = "mm") -> Points:
             f"{len(missing)} of {count} points are missing: {named}",
             hint="was this phase measured on another topology?",
         )
-    return places
+    return np.array(places) * UNITS_M[unit]
 
 
 def _parse(path: Path, words: list[str], line: int, count: int) -> tuple[int, tuple[float, ...]]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -69,7 +70,7 @@ def make_skin(keypose: Keypose) -> Skin:
         _corners(rows, edges, source),
         _tints(keypose, rows, origin),
     )
-    shades = np.array([linear_color(keypose.topology.polygons[number].color) for number in origin])
+    shades = np.array([[linear(code) for code in _codes(keypose.topology.polygons[number].color)] for number in origin])
     shades.flags.writeable = False
     mirror = _mirrored(cut, parts, len(source)) if keypose.mirror else np.full(len(source), -1)
     return Skin(topology, shades, point[source], sign[source], mirror)
@@ -180,9 +181,10 @@ def _mirrored(cut: Sequence[Sequence[int]], parts: Sequence[Part], count: int) -
     return mirror
 
 
-def linear_color(code: str) -> list[float]:
-    """Linear RGB 0..1 of ``#rrggbb``."""
-    return [exact.srgb_to_linear(each / 255.0) for each in _codes(code)]
+@cache
+def linear(code: int) -> float:
+    """Linear light 0..1 of an sRGB code 0..255."""
+    return exact.srgb_to_linear(code / 255.0)
 
 
 def _codes(color: str) -> list[int]:

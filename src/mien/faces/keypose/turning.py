@@ -37,6 +37,8 @@ def turn_rigidly(
         return
     columns = [points[vertices, axis] - pivot[axis] for axis in range(3)]
     for (first, second, sense), angle_deg in zip(STEPS, angles_deg[::-1], strict=True):
+        if angle_deg == 0.0:
+            continue
         sine, cosine = exact.sin_cos(share * (sense * angle_deg * (math.pi / 180.0)))
         a, b = columns[first], columns[second]
         columns[first], columns[second] = a * cosine - b * sine, a * sine + b * cosine
