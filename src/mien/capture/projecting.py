@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -72,9 +74,10 @@ def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
 
 def fold(k1: float, k2: float) -> float:
     """The radius of a direction beyond which radial terms turn the picture back; infinite where they do not."""
-    roots = np.roots([5.0 * k2, 3.0 * k1, 1.0]) if k2 else np.array([-1.0 / (3.0 * k1)]) if k1 else np.empty(0)
-    squares = [float(root.real) for root in roots if abs(root.imag) < 1e-12 and root.real > 0.0]
-    return float(np.sqrt(min(squares))) if squares else np.inf
+    # Of r (1 + k1 r² + k2 r⁴) the slope is 1 + 3 k1 r² + 5 k2 r⁴.
+    inside = 9.0 * k1 * k1 - 20.0 * k2
+    below = -3.0 * k1 + math.sqrt(inside) if inside >= 0.0 else 0.0
+    return math.sqrt(2.0 / below) if below > 1e-12 else math.inf
 
 
 def undistort(lens: Lens, pictures: Points) -> Points:
