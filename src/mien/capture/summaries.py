@@ -22,7 +22,7 @@ def fitted(solution: Solution) -> list[Residual]:
 
 def rms_px(solution: Solution) -> float:
     """How far points are seen from where the solution has them, px: root of the mean squared distance."""
-    return _rms(fitted(solution))
+    return rms(fitted(solution))
 
 
 def errors_by_photo(solution: Solution) -> dict[str, float]:
@@ -30,10 +30,11 @@ def errors_by_photo(solution: Solution) -> dict[str, float]:
     seen: dict[str, list[Residual]] = {photo.name: [] for photo in solution.survey.photographs}
     for each in fitted(solution):
         seen.setdefault(each.observation.photo, []).append(each)
-    return {name: _rms(residuals) for name, residuals in seen.items() if residuals}
+    return {name: rms(residuals) for name, residuals in seen.items() if residuals}
 
 
-def _rms(residuals: Iterable[Residual]) -> float:
+def rms(residuals: Iterable[Residual]) -> float:
+    """Root of the mean squared distance of residuals, px; 0 of none."""
     squares = [each.du**2 + each.dv**2 for each in residuals]
     return float(np.sqrt(np.mean(squares))) if squares else 0.0
 

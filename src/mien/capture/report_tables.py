@@ -1,0 +1,155 @@
+"""Tables of a report: photographs with their lenses, suspects, points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+
+import numpy as np
+
+from .records import Camera, Photograph, Residual, Solution, SolvedPoint
+from .report_numbers import Unit, fixed, significant
+from .report_photographs import format_crop
+from .report_pictures import Embedded
+from .summaries import errors_by_photo, measured, sigma_m
+
+CROPS = 60
+"""Suspects that are shown in a picture; the others are in the table."""
+
+Cell = tuple[str, str]
+"""HTML of a cell, and what it is sorted by."""
+
+
+def format_photographs(solution: Solution, unit: Unit) -> str:
+    """Photographs: size, lens, distance, how many clicks, how well they fit."""
+    heads = ["photograph", "moment", "camera", "size, px", "focal length, px", "principal point, px", "k1", "k2"]
+    heads += [f"distance, {unit.name}", "clicks", "suspect", "RMS, px"]
+    errors = errors_by_photo(solution)
+    rows = [_photograph_row(each, solution, errors.get(each.name), unit) for each in solution.survey.photographs]
+    return _format_table(heads, rows, texts=3)
+
+
+def _photograph_row(photograph: Photograph, solution: Solution, error: float | None, unit: Unit) -> list[Cell]:
+    name = photograph.name
+    camera = solution.cameras.get(name)
+    clicks = sum(each.photo == name for each in solution.survey.observations)
+    suspects = sum(each.observation.photo == name for each in solution.suspects)
+    size = "{} × {}".format(*photograph.size_px)
+    row = [_text(name), _text(photograph.moment), _text(photograph.camera), (size, str(photograph.size_px[0]))]
+    row += _lens_cells(camera, photograph.size_px) if camera else [("not placed", "")] + [("", "")] * 3
+    distance = _distance(camera, solution, photograph.moment) if camera else math.nan
+    row.append((significant(distance / unit.metres), str(distance)) if math.isfinite(distance) else ("", ""))
+    row.append(_integer(clicks))
+    row.append((f'<b class="bad">{suspects}</b>', str(suspects)) if suspects else _integer(0))
+    row.append((fixed(error, 2), str(error)) if error is not None else ("", ""))
+    return row
+
+
+def _lens_cells(camera: Camera, size_px: tuple[int, int]) -> list[Cell]:
+    """Terms of a lens, told apart by whether they were found or assumed."""
+    lens, (width, height) = camera.lens, size_px
+    u, v = lens.principal_px
+    angle = 2.0 * math.degrees(math.atan(max(width, height) / 2.0 / lens.focal_px))
+    values = {
+        "focal": (f"{fixed(lens.focal_px, 1)} <small>{angle:.0f}°</small>", lens.focal_px),
+        "principal": (f"{fixed(u, 1)}, {fixed(v, 1)}", math.hypot(u - width / 2.0, v - height / 2.0)),
+        "k1": (fixed(lens.k1, 4), lens.k1),
+        "k2": (fixed(lens.k2, 4), lens.k2),
+    }
+    return [
+        (told if term in lens.freed else f'<span class="assumed">{told}</span>', str(value))
+        for term, (told, value) in values.items()
+    ]
+
+
+def _distance(camera: Camera, solution: Solution, moment: str) -> float:
+    """From the camera to the middle of the points, m."""
+    places = [point.place for point in measured(solution) if point.moment == moment]
+    places = places or [point.place for (at, _), point in solution.points.items() if at == moment]
+    if not places:
+        return math.nan
+    return float(np.linalg.norm(np.mean(places, axis=0) - camera.place))
+
+
+def format_suspects(suspects: Sequence[Residual]) -> str:
+    """Clicks that do not fit, with the places where the others have them."""
+    heads = ("photograph", "point", "line", "clicked, px", "expected, px", "off, px", "off, sigmas")
+    rows = []
+    for each in suspects:
+        seen = each.observation
+        off = math.hypot(each.du, each.dv)
+        rows.append(
+            [
+                _text(seen.photo),
+                _text(seen.point),
+                (str(seen.line) if seen.line else "", str(seen.line)),
+                (f"{fixed(seen.u, 1)}, {fixed(seen.v, 1)}", str(seen.u)),
+                (f"{fixed(seen.u - each.du, 1)}, {fixed(seen.v - each.dv, 1)}", str(seen.u - each.du)),
+                (fixed(off, 1), str(off)),
+                (significant(math.sqrt(max(each.statistic, 0.0)), 2), str(each.statistic)),
+            ]
+        )
+    return _format_table(heads, rows, texts=2)
+
+
+def format_crops(suspects: Sequence[Residual], embedded: Mapping[str, Embedded]) -> str:
+    """Pictures of suspects at full size, the worst first."""
+    left = {name: iter(each.crops) for name, each in embedded.items()}
+    figures: list[str] = []
+    for each in suspects:
+        seen = each.observation
+        crop = next(left[seen.photo], None) if seen.photo in left else None
+        if crop is None or not crop.uri or len(figures) == CROPS:
+            continue
+        figures.append(
+            f"<figure>{format_crop(each, crop)}<figcaption><b>{escape(seen.point)}</b> in {escape(seen.photo)}, "
+            f"{fixed(math.hypot(each.du, each.dv), 0)} px off</figcaption></figure>"
+        )
+    return f'<div class="crops">{"".join(figures)}</div>\n' if figures else ""
+
+
+def format_points(points: Sequence[SolvedPoint], unit: Unit) -> str:
+    """Points with their places, standard deviations and what they were found from."""
+    heads = ("moment", "point", *(f"{axis}, {unit.name}" for axis in "xyz"))
+    heads += (*(f"σ{axis}" for axis in "xyz"), "σ", "kind", "photographs")
+    rows = []
+    for each in points:
+        deviations = np.sqrt(np.maximum(np.diag(each.covariance), 0.0)).tolist()
+        lengths = [*each.place.tolist(), *deviations, sigma_m(each)]
+        cells = [(unit.number(value), repr(float(value))) for value in lengths]
+        seen = f'<span title="{escape(", ".join(each.photos), quote=True)}">{len(each.photos)}</span>'
+        rows.append([_text(each.moment), _text(each.name), *cells, _text(each.kind), (seen, str(len(each.photos)))])
+    return _format_table(heads, rows, texts=2)
+
+
+def _text(text: str) -> Cell:
+    return escape(text), ""
+
+
+def _integer(number: int) -> Cell:
+    return str(number), str(number)
+
+
+def _format_table(heads: Sequence[str], rows: Sequence[Sequence[Cell]], texts: int) -> str:
+    """A table that is sorted by a click on a head; the first cells of a row are words, the others numbers."""
+    titles = "".join(
+        f'<th scope="col"{_class(k, texts)}><button type="button">{escape(head)}</button></th>'
+        for k, head in enumerate(heads)
+    )
+    lines = []
+    for row in rows:
+        cells = "".join(f"<td{_class(k, texts)}{_key(key)}>{content}</td>" for k, (content, key) in enumerate(row))
+        lines.append(f"<tr>{cells}</tr>\n")
+    return (
+        f'<div class="scroll"><table class="sortable"><thead><tr>{titles}</tr></thead>\n<tbody>\n'
+        f"{''.join(lines)}</tbody></table></div>\n"
+    )
+
+
+def _class(column: int, texts: int) -> str:
+    return "" if column < texts else ' class="number"'
+
+
+def _key(key: str) -> str:
+    return f' data-key="{escape(key, quote=True)}"' if key else ""
