@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import tomllib
 from collections.abc import Collection, Mapping
@@ -12,6 +11,12 @@ from typing import Any
 
 from mien.core import LoadError, UnknownNameError
 from mien.formats.cue_text import read_text
+
+MOST = 1e9
+"""What no length or size of a project is as large as."""
+
+SHOWN = 60
+"""Letters of a value that a message shows."""
 
 _HEADER = re.compile(r"\s*\[\[?\s*(?:\"([^\"]*)\"|([\w-]+))\s*\]\]?\s*(?:#.*)?")
 _KEY = re.compile(r"\s*(?:\"([^\"]*)\"|([\w-]+))\s*=")
@@ -81,11 +86,11 @@ class Keys:
         value: bool = self.take(key, bool, "true or false", default)
         return value
 
-    def count(self, key: str, least: int) -> int:
-        """A whole number, at least so large."""
+    def count(self, key: str, least: int, most: int) -> int:
+        """A whole number of a range."""
         value: int = self.take(key, int, "a whole number")
-        if value < least:
-            raise self.mistake(key, f"want {least} or more, got {value}")
+        if not least <= value <= most:
+            raise self.mistake(key, f"want a number from {least} to {most}, got {_shown(value)}")
         return value
 
     def length(self, key: str, default: float | None = None) -> float:
@@ -123,8 +128,8 @@ class Keys:
     def _length(self, key: str, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.mistake(key, f"want a number, got {_shown(value)}")
-        if not (math.isfinite(value) and value > 0.0):
-            raise self.mistake(key, f"want a number above 0, got {value}")
+        if not 0.0 < value < MOST:  # which what is not a number is not either
+            raise self.mistake(key, f"want a number above 0 that is not too large, got {_shown(value)}")
         return float(value)
 
     def table(self, key: str) -> Keys | None:
@@ -172,8 +177,11 @@ def read_keys(path: Path) -> Keys:
         raise LoadError(
             path, f"is not TOML: {message}", line=line, hint='texts stand in double quotes, name = "smile"'
         ) from None
-    except RecursionError:
-        raise LoadError(path, "is not TOML: brackets within brackets without end") from None
+    except (
+        RecursionError,
+        ValueError,
+    ) as error:  # brackets within brackets without end, numbers of thousands of digits
+        raise LoadError(path, f"is not TOML: {error}") from None
 
 
 def find_line(text: str, table: str, number: int, key: str) -> int | None:
@@ -193,4 +201,7 @@ def find_line(text: str, table: str, number: int, key: str) -> int | None:
 def _shown(value: object) -> str:
     if isinstance(value, dict):
         return "a table"
-    return str(value).lower() if isinstance(value, bool) else repr(value)
+    if isinstance(value, int) and abs(value) > MOST:
+        return "a very large number"
+    text = str(value).lower() if isinstance(value, bool) else repr(value)
+    return text if len(text) <= SHOWN else f"{text[:SHOWN]}…"

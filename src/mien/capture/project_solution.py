@@ -159,7 +159,7 @@ def read_solution_files(folder: Path, survey: Survey) -> Solution:
         chi2, remarks = float(summary["chi2_per_dof"]), tuple(map(str, summary["remarks"]))
         changed = _changed(dict(summary["from"]), fingerprints(folder))
         found = {str(each["photo"]): _camera(each) for each in cameras["cameras"]}
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise LoadError(
             place, f"is no solution of this mien ({error})", hint=f"find it again: mien capture solve {folder}"
         ) from None
@@ -191,6 +191,11 @@ def _read_json(path: Path) -> Any:
         return json.loads(read_text(path))
     except json.JSONDecodeError as error:
         raise LoadError(path, f"column {error.colno}: {error.msg}", line=error.lineno, hint="want JSON") from None
+    except (
+        RecursionError,
+        ValueError,
+    ) as error:  # brackets within brackets without end, numbers of thousands of digits
+        raise LoadError(path, f"is not JSON: {error}") from None
 
 
 def _camera(values: Mapping[str, Any]) -> Camera:

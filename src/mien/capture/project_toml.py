@@ -10,7 +10,7 @@ from typing import TypeVar
 from mien.core import LoadError, UnknownNameError
 
 from .photographs import photograph_size
-from .project_keys import Keys, read_keys
+from .project_keys import MOST, Keys, read_keys
 from .project_points import shorten
 from .project_records import DISTANCE_SIGMA_M, KINDS, METRES, PICTURES, PROJECT, Board, Pair, Project
 from .records import REST, Photograph
@@ -66,7 +66,7 @@ def _check_format(keys: Keys) -> None:
     kind = keys.string("format")
     if kind != FORMAT:
         raise keys.mistake("format", f"want {FORMAT!r}, got {kind!r}")
-    version = keys.count("version", 1)
+    version = keys.count("version", 1, 1_000_000)
     if version > VERSION:
         raise keys.mistake("version", f"is {version}, and this mien knows up to {VERSION}", "a newer mien reads it")
 
@@ -101,8 +101,8 @@ def _read_photograph(keys: Keys, folder: Path) -> Photograph:
     camera, moment, fixed = keys.string("camera", "a"), keys.string("moment", REST), keys.flag("fixed", False)
     if not camera or not moment:
         raise keys.mistake("camera" if not camera else "moment", "is empty", "leave it out, or give it a name")
-    if size and not (len(size) == 2 and all(type(side) is int and side > 0 for side in size)):
-        raise keys.mistake("size", f"want [width, height] in pixels, got {size}")
+    if size and not (len(size) == 2 and all(type(side) is int and 0 < side < MOST for side in size)):
+        raise keys.mistake("size", f"want [width, height] in pixels, got {str(size)[:60]}")
     keys.finish()
     path = find_picture(folder, file)
     if path is None and not size:
@@ -134,8 +134,8 @@ def _read_boards(tables: list[Keys], names: Collection[str], metres: float) -> t
         board = Board(
             target=target,
             kind=kind,
-            columns=keys.count("columns", 3),
-            rows=keys.count("rows", 3),
+            columns=keys.count("columns", 3, 200),
+            rows=keys.count("rows", 3, 200),
             square_m=keys.length("square") * metres,
             marker_m=keys.length("marker") * metres if charuco else 0.0,
             dictionary=keys.choice("dictionary", DICTIONARIES) if charuco else "",
@@ -182,8 +182,10 @@ def _read_scale(keys: Keys, metres: float) -> tuple[str, str, float] | None:
     if not value:
         return None
     kinds = [type(part) for part in value]
-    if len(value) != 3 or kinds[:2] != [str, str] or kinds[2] not in (int, float) or not 0 < value[2] < 1e9:
-        raise keys.mistake("scale", f'want two points and how far they are apart, ["a", "b", 92.0], got {value}')
+    if len(value) != 3 or kinds[:2] != [str, str] or kinds[2] not in (int, float) or not 0 < value[2] < MOST:
+        raise keys.mistake(
+            "scale", f'want two points and how far they are apart, ["a", "b", 92.0], got {str(value)[:60]}'
+        )
     if value[0] == value[1]:
         raise keys.mistake("scale", f"want two points, got {value[0]!r} twice")
     return value[0], value[1], value[2] * metres

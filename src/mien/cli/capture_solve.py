@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -63,7 +64,7 @@ def summary_lines(solution: Solution, folder: Path, unit: str) -> list[str]:
 
     found, suspects, clicks = measured(solution), solution.suspects, len(solution.residuals)
     lines = [
-        f"{solution.method}: {len(solution.cameras)} photographs, {len(found)} points, {clicks} clicks",
+        f"{solution.method}: {len(solution.cameras)} photographs, {_points(found)}, {clicks} clicks",
         *_error_lines(solution),
         *([] if not found else _point_lines(found, worst_points(solution, WORST), unit)),
     ]
@@ -150,6 +151,13 @@ def described(solution: Solution, out: Path) -> dict[str, object]:
         ],
         "remarks": list(solution.remarks),
     }
+
+
+def _points(found: Sequence[SolvedPoint]) -> str:
+    """How many points there are, and of which kinds if there are several."""
+    kinds = Counter(point.kind for point in found)
+    told = f" ({', '.join(f'{number} {kind}' for kind, number in kinds.most_common())})" if len(kinds) > 1 else ""
+    return f"{_count(len(found), 'point')}{told}"
 
 
 def _count(number: int, word: str) -> str:
