@@ -17,6 +17,7 @@ from PIL import Image
 import mien
 from mien.live import Frame, frames
 from mien.live.frames import FrameEncoder
+from support import MASK
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed (extras: test)")
 
@@ -135,6 +136,7 @@ def assert_same_face(found):
         ("head", {"mouth.expression": 0.2, "jaw.rotation": 10.0}),
         ("head", {"head.turn": 30.0, "head.nod": -10.0, "eye.turn": -15.0, "eyelid.opening": 0.7}),
         ("head:kenji", {"jaw.rotation": 6.0}),
+        (MASK, {"phase": 2.5, "head.turn": 15.0, "eye.turn": 10.0}),
         ("toon:olav", {}),
         ("toon:gus", {}),
         ("toon:pip", {}),
