@@ -31,6 +31,7 @@ CLEARANCE_M = 0.0005
 MARGIN_CLEARANCE_M, LIP_CLEARANCE_M = 0.00085, 0.0012
 """How far refined skin, margin and lip of the lids stand off the ball at least."""
 
+FLIP = (-1.0, 1.0, 1.0)
 ROUNDS = 16
 INNER, MARGIN, LIP = (LID_RINGS.index(ring) for ring in ("inner", "margin", "lip"))
 STATIONS = 12
@@ -40,7 +41,7 @@ ABOVE, BELOW = np.arange(0, 7), np.array([0, *range(11, 5, -1)])
 
 @dataclass(frozen=True, eq=False)
 class LeftEye:
-    """What the lids of the left eye are fitted to; the right ones mirror them.
+    """What the lids of the left eye are fitted to, or of the right one in the mirror.
 
     Attributes:
         points: (V, 3) m, neutral skin.
@@ -65,29 +66,46 @@ class LeftEye:
         return azimuth, elevation
 
 
-def fit_lids(points: Points, lids: Lids, centres: Points, radius: float, refine: SparseMatrix | None) -> Lids:
+def fit_lids(
+    points: Points, lids: Lids, centres: Points, radius: float, refine: SparseMatrix | None, mirror: Ints | None = None
+) -> Lids:
     """The lids' polar coordinates on other points.
 
     Args:
-        points: (V, 3) m, neutral skin of the person; symmetric.
+        points: (V, 3) m, neutral skin of the person.
         lids: which vertices they are.
         centres: (2, 3) m, left and right eye.
         radius: m, of the ball.
         refine: matrix (V', V) of one subdivision step for a cage; None for points on the surface.
+        mirror: (V,) vertex that each becomes in the mirror; None for symmetric points, whose left lids do for both.
     """
     flip = np.stack([lids.side, np.ones_like(lids.side), np.ones_like(lids.side)], axis=1)
     centre = np.where(lids.side[:, None] > 0, centres[0], centres[1])
     azimuth, elevation, distance = to_polar((points[lids.index] - centre) * flip)
     fitted = replace(lids, azimuth=azimuth, elevation=elevation, radius=distance)
     left, right = np.flatnonzero(lids.side > 0), np.flatnonzero(lids.side < 0)
-    eye = LeftEye(points, fitted, left.reshape(len(LID_RINGS), STATIONS), centres[0], radius, refine)
-    margin = eye.margin(points)
-    shut, far = _close(eye, margin)
-    if refine is not None:
-        for _ in range(ROUNDS):
-            shut, far = _correct(eye, margin, refine, shut, far)
-    shut[right], far[right] = shut[left], far[left]
+    rows = left.reshape(len(LID_RINGS), STATIONS)
+    shut, far = _shut(LeftEye(points, fitted, rows, centres[0], radius, refine))
+    if mirror is None:
+        shut[right], far[right] = shut[left], far[left]
+    else:
+        seen = replace(fitted, azimuth=azimuth.copy(), elevation=elevation.copy(), radius=distance.copy())
+        for values in (seen.azimuth, seen.elevation, seen.radius):
+            values[left] = values[right]
+        other = LeftEye(points[mirror] * FLIP, seen, rows, centres[1] * FLIP, radius, refine)
+        shut_right, far_right = _shut(other)
+        shut[right], far[right] = shut_right[left], far_right[left]
     return replace(fitted, elevation_shut=_round(shut), radius_shut=_round(far))
+
+
+def _shut(eye: LeftEye) -> tuple[Floats, Floats]:
+    """(L,) elevation and radius of the shut lids."""
+    margin = eye.margin(eye.points)
+    shut, far = _close(eye, margin)
+    if eye.refine is not None:
+        for _ in range(ROUNDS):
+            shut, far = _correct(eye, margin, eye.refine, shut, far)
+    return shut, far
 
 
 def _close(eye: LeftEye, margin: tuple[Floats, Floats]) -> tuple[Floats, Floats]:

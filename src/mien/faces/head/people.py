@@ -51,7 +51,7 @@ def shipped_head(name: str) -> Head:
     if name not in people():
         raise UnknownNameError("head", name, people())
     row = people()[name]
-    return make_head(address(name), {**_DEFAULTS, **row}, shapes().get(name, {}))
+    return make_head(address(name), {**DEFAULTS, **row}, shapes().get(name, {}))
 
 
 def make_head(
@@ -111,7 +111,7 @@ def read_head(path: Path) -> Head:
         for key in record:
             if key not in KEYS:
                 raise UnknownNameError("key", key, sorted(KEYS))
-        texts = {key: _text(record, key, default) for key, default in _DEFAULTS.items()}
+        texts = {key: _text(record, key, default) for key, default in DEFAULTS.items()}
         beside = _text(record, "residual", "")
         residual = read_residual(path.parent / beside, len(archive().mirror)) if beside else None
         return make_head(str(path), texts, _values(record), residual)
@@ -121,7 +121,7 @@ def read_head(path: Path) -> Head:
         raise LoadError(path, str(error)) from None
 
 
-_DEFAULTS = {
+DEFAULTS = {
     "name": "",
     "hair": "side_part",
     "beard": NONE,

@@ -17,17 +17,17 @@ from mien.core.mesh import Points
 from mien.core.sparse import SparseMatrix
 from mien.core.subdivision import refine
 
-from .lids_fit import fit_lids
+from .lids_fit import FLIP, fit_lids
 from .measured import Archive, Measured
 
 
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """Moves (V, 3) m of the two position sets, symmetric, and the eyes of the person.
+    """Moves (V, 3) m of the two position sets, and the eyes of the person.
 
     Attributes:
         cage, surface: (V, 3) m.
-        eye_shift: (3,) m, of the left eye; the right one mirrors it.
+        eye_shift: (3,) m, of the left eye, which the right one mirrors; or (2, 3) of both.
         eye_scale: radius of the ball over the neutral one.
     """
 
@@ -38,7 +38,7 @@ class Residual:
 
 
 def read_residual(path: Path, vertex_count: int) -> Residual:
-    """The residual of an ``.npz`` with ``cage`` and ``surface`` (V, 3) m, ``eye_shift`` (3,) m and ``eye_scale``.
+    """The residual of an ``.npz``: ``cage`` and ``surface`` (V, 3) m, ``eye_shift`` (3,) or (2, 3) m, ``eye_scale``.
 
     Raises:
         LoadError: an array is missing, has another shape or is not finite.
@@ -51,6 +51,8 @@ def read_residual(path: Path, vertex_count: int) -> Residual:
     except (ValueError, TypeError, AttributeError, EOFError, BadZipFile, zlib.error) as error:
         raise LoadError(path, f"not a file of arrays (.npz): {error}", hint="write it with numpy.savez") from None
     wanted = {"cage": (vertex_count, 3), "surface": (vertex_count, 3), "eye_shift": (3,), "eye_scale": ()}
+    if "eye_shift" in arrays and arrays["eye_shift"].ndim == 2:
+        wanted["eye_shift"] = (2, 3)
     for name, shape in wanted.items():
         if name not in arrays:
             raise LoadError(path, f"array {name!r} is missing", hint=f"want {', '.join(wanted)}")
@@ -71,7 +73,7 @@ def apply_residual(measured: Measured, residual: Residual, archive: Archive) -> 
     points = measured.points + move
     centres, radius = eyes_of(residual, archive)
     matrix = refine_cage(archive) if measured.kind == "cage" else None
-    lids = fit_lids(points, measured.lids, centres, radius, matrix)
+    lids = fit_lids(points, measured.lids, centres, radius, matrix, archive.mirror)
     return replace(measured, points=points, lids=lids)
 
 
@@ -80,4 +82,6 @@ def eyes_of(residual: Residual | None, archive: Archive) -> tuple[Points, float]
     centres, radius = archive.floats("eye_centre"), float(archive.floats("eye_radius"))
     if residual is None:
         return centres, radius
-    return centres + np.stack([residual.eye_shift, residual.eye_shift * [-1.0, 1.0, 1.0]]), radius * residual.eye_scale
+    shift = residual.eye_shift
+    both = shift if shift.ndim == 2 else np.stack([shift, shift * FLIP])
+    return centres + both, radius * residual.eye_scale
