@@ -25,7 +25,7 @@ WORDS = {
     "caruncle": Material(gloss=0.03),
     "lash": Material(two_sided=True),
     "brow": Material(gloss=0.015),
-    "teeth": Material(gloss=0.2),
+    "teeth": Material(gloss=0.2, two_sided=True),
     "collar": Material(gloss=0.01, two_sided=True, subdivide=True),
     "hair": Material(gloss=0.06, subdivide=True),
 }

@@ -14,18 +14,20 @@ from mien.faces.head.measured import archive
 
 FLIP = np.array([-1.0, 1.0, 1.0])
 SIDES = 12
-EYE_RINGS = (0.19, 0.36, 0.475, 0.525, 0.72, 0.95)
+EYE_RINGS = (0.20, 0.36, 0.475, 0.525, 0.72, 0.95)
 """Sines of the rings of an eye: pupil, iris in two, the dark ring around it, and two rings of white."""
 EYE_LABELS = ("iris", "iris", "fringe", "white", "white")
 SPOT = 0.085
-TOOTH_RINGS, TOOTH_CORNERS = (0, 1, 3), (0, 1, 2)
+TOOTH_RINGS, TOOTH_CORNERS = (0, 1, 3), (7, 0, 2, 3)
 FRONT_TEETH = tuple(range(4, 16, 2))
 """Of the left upper crowns, the first molar to the central incisor; the lower ones are 16 further on."""
+LONGER_M = 0.002
+"""How much lower the upper teeth stand than in the shipped head: lips that open show them."""
 BROW_STATIONS, BROW_ROWS = (0, 2, 4, 6, 8, 10, 12, 14), (0, 1, 2, 3)
-BROW_LIFT_M = 0.0011
+BROW_LIFT_M = 0.0018
 CHIN_SHARE = 0.65
 """Points below the mouth with so much of the jaw's angle go along with the lower teeth."""
-COLLAR_ROWS = (1, 5, 6, 8, 10, 12)
+COLLAR_ROWS = (0, 2, 4, 6, 9, 12)
 UPPER, LOWER = (0, 1, 2, 3, 4, 5, 6), (6, 7, 8, 9, 10, 11, 0)
 """Stations of the lids from the inner corner to the outer one, and back."""
 
@@ -274,6 +276,7 @@ def _teeth(half: Half) -> None:
     for jaw, first in (("upper", 0), ("lower", 16)):
         chosen = np.array([[ring * 8 + corner for corner in TOOTH_CORNERS] for ring in TOOTH_RINGS])
         points = crowns[[first + tooth for tooth in FRONT_TEETH]][:, chosen].reshape(-1, 3)
+        points = points - [0.0, LONGER_M if jaw == "upper" else 0.0, 0.0]
         rest = _carried(points)
 
         def place(state: State, rest: Callable[[State], np.ndarray] = rest, moves: bool = jaw == "lower") -> np.ndarray:
@@ -293,7 +296,8 @@ def _teeth(half: Half) -> None:
                 for column in range(columns - 1):
                     a = (tooth * rows + row) * columns + column
                     corners = (a, a + 1, a + columns + 1, a + columns)
-                    polygons.append((tuple(names[k] for k in corners), "tooth"))
+                    way = 1 if jaw == "lower" else -1  # upper crowns point the other way
+                    polygons.append((tuple(names[k] for k in corners[::way]), "tooth"))
         follows = _chin() if jaw == "lower" else ()
         half.add(Piece(names, place, f"{jaw} teeth", follows), "teeth", polygons)
 

@@ -18,7 +18,7 @@ MATERIALS = {
     "caruncle": Material(gloss=0.03),
     "lash": Material(two_sided=True),
     "brow": Material(gloss=0.015),
-    "teeth": Material(gloss=0.2, gloss_power=36),
+    "teeth": Material(gloss=0.2, gloss_power=36, two_sided=True),
     "collar": Material(gloss=0.01, two_sided=True, subdivide=True),
     "hair": Material(gloss=0.07, gloss_power=18, subdivide=True),
 }

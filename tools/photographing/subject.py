@@ -15,8 +15,12 @@ from mien.faces.head.measured import archive
 from .halves import State
 
 PHASES = Path(__file__).with_name("phases.csv")
-BALL = 0.985
-"""Radius of the ball that is photographed, over that of the sclera, which the lids clear by less."""
+BALL = 0.975
+"""Radius of the ball that is photographed, over one that the lids would touch between their corners."""
+KAPPA = 0.03
+"""How far the eyes look outwards while the head looks at something: the optical axis is not the line of sight."""
+REST = {"eyeBlink": 0.12}
+"""What the scans, taken with wide open eyes, need to look at ease; part of every phase."""
 
 
 def phase_rows() -> dict[str, dict[str, float]]:
@@ -82,7 +86,8 @@ class Subject:
 
     def points(self, expressions: dict[str, float]) -> np.ndarray:
         """(V, 3) m of the scanned head."""
-        moved = sum((share * self.scan.expressions[name] for name, share in expressions.items()), start=0.0)
+        both = {name: REST.get(name, 0.0) + expressions.get(name, 0.0) for name in {**REST, **expressions}}
+        moved = sum((share * self.scan.expressions[name] for name, share in both.items()), start=0.0)
         return self.scan.reference.scans.points + self.identity + moved
 
     def skin(self, expressions: dict[str, float]) -> np.ndarray:
@@ -92,18 +97,18 @@ class Subject:
         return surface + onto @ (self.points(expressions) - self.scan.reference.scans.points)
 
     def eye(self, expressions: dict[str, float], side: str) -> tuple[np.ndarray, float, np.ndarray]:
-        """Centre m, radius m and gaze of an eye, ``L`` or ``R``."""
-        white, iris = self.scan.vertices(f"sclera_{side}"), self.scan.vertices(f"iris_{side}")
-        rest, now = self.points({}), self.points(expressions)
-        ball = np.concatenate([white, iris])
-        matrix = np.column_stack([2.0 * rest[white], np.ones(len(white))])
-        *centre, rest_of = np.linalg.lstsq(matrix, (rest[white] ** 2).sum(axis=1), rcond=None)[0]
-        centre = np.array(centre)
-        radius = float(np.sqrt(rest_of + centre @ centre))
-        gaze = rest[iris].mean(axis=0) - centre
-        turn, shift = similarity(rest[ball], now[ball])
-        gaze = turn @ (gaze / np.linalg.norm(gaze))
-        return turn @ centre + shift, BALL * radius, gaze / np.linalg.norm(gaze)
+        """Centre m, radius m and gaze of an eye, ``L`` or ``R``.
+
+        The scanned ball is no sphere, so that of the shipped head goes where it goes, as large as it is.
+        """
+        ball = self.scan.vertices(f"sclera_{side}")
+        mean, rest, now = self.scan.reference.scans.points[ball], self.points({})[ball], self.points(expressions)[ball]
+        grown, shift = similarity(mean, rest)
+        centre = grown @ archive().floats("eye_centre")["LR".index(side)] + shift
+        turn, shift = similarity(rest, now)
+        gaze = turn @ np.array([KAPPA if side == "L" else -KAPPA, 0.0, 1.0])
+        radius = BALL * float(archive().floats("eye_radius")) * float(np.cbrt(np.linalg.det(grown)))
+        return turn @ centre + shift, radius, gaze / np.linalg.norm(gaze)
 
     def jaw(self, expressions: dict[str, float]) -> np.ndarray:
         """(3, 4) m, how the lower teeth move."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,14 +16,17 @@ from .records import Solution
 Floats = NDArray[np.float64]
 Picture = NDArray[np.uint8]
 
-SEEN_SHARE = 0.6
-"""Share of a polygon's corners that must be seen in a photograph for its colour to be taken there."""
+SEEN_SHARE, SQUARE = 0.6, 4
+"""Share of a polygon's corners that must be seen in a photograph for its colour to be taken there; of one with no more
+corners than a square all."""
 INNER = (0.15, 0.35, 0.55)
 """How far from its middle towards its corners a polygon is looked at: dots at the corners are not its colour."""
 LEAST_PX = 3.0
 """A polygon whose corners lie nearer to its middle is too small to be looked at."""
 OUTLIER = 2.5
 """Colours farther from the median than so many median distances are ignored."""
+MOST = 0.5
+"""Share of the polygons drafted alike that must be seen for the others to be coloured like them."""
 STEPS, SHARE = 4, 0.5
 """Steps of evening out, and how far each goes."""
 
@@ -63,7 +66,7 @@ def sample_colors(
         known = [k for k, name in enumerate(names) if name in places]
         at[known] = project(camera, np.array([places[names[k]] for k in known]))
         for row, found in zip(rows, looks, strict=True):
-            if seen[row].mean() >= SEEN_SHARE:
+            if seen[row].mean() >= (SEEN_SHARE if len(row) > SQUARE else 1.0):
                 found += _looks(at[row[np.isfinite(at[row, 0])]], picture)
     colors = np.array([middle_color(np.array(found)) if found else np.full(3, np.nan) for found in looks])
     return colors, np.array([len(found) for found in looks])
@@ -90,11 +93,11 @@ def middle_color(looks: Floats) -> Floats:
     return np.asarray(looks[kept].mean(axis=0))
 
 
-def even_out(colors: Floats, topology: KeyposeTopology, keep: Mapping[str, Floats] | None = None) -> Floats:
+def even_out(colors: Floats, topology: KeyposeTopology) -> Floats:
     """Colours (F, 3) of polygons, evened out among neighbours that were drafted in the same colour.
 
-    Polygons that were not seen (nan) get the middle of those drafted alike; with none of these, what ``keep`` or else
-    the draft itself says.
+    Polygons that were not seen (nan) get the middle of those drafted alike, or where most of them hide as well, such as
+    the inside of a mouth, the colour that they were drafted in.
     """
     polygons = topology.polygons
     groups: dict[tuple[str, str], list[int]] = {}
@@ -104,8 +107,8 @@ def even_out(colors: Floats, topology: KeyposeTopology, keep: Mapping[str, Float
     for (_, draft), numbers in groups.items():
         index = np.array(numbers)
         seen = index[np.isfinite(colors[index, 0])]
-        fallback = (keep or {}).get(draft, _rgb(draft))
-        out[index[~np.isfinite(colors[index, 0])]] = np.median(colors[seen], axis=0) if len(seen) else fallback
+        usual = np.median(colors[seen], axis=0) if len(seen) >= MOST * len(index) else _rgb(draft)
+        out[index[~np.isfinite(colors[index, 0])]] = usual
         pairs = _beside([polygons[number] for number in numbers])
         for _ in range(STEPS if len(pairs) else 0):
             total, count = np.zeros((len(index), 3)), np.zeros(len(index))
