@@ -35,7 +35,7 @@ from mien.capture.records import Reference as Bead
 from mien.faces.keypose.topology_file import format_topology
 
 PEOPLE = Path(__file__).parent / "photographing/people.csv"
-CLICK_PX = 0.6
+CLICK_PX = 0.5
 """Standard deviation of a click."""
 QUALITY = 92
 

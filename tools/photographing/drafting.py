@@ -32,6 +32,10 @@ WORDS = {
 """What the topology file says of each part."""
 
 
+BLEND = ("skin", "collar", "hair")
+"""Parts whose colours flow into one another."""
+
+
 @dataclass(frozen=True, eq=False)
 class Draft:
     """What is to be measured.
@@ -63,6 +67,7 @@ def drafted(half: Half, palette: str, seen: Collection[str]) -> Draft:
             part,
             tuple(Polygon(tuple(at[name] for name in row.corners[::-1]), colors[row.label]) for row in rows),
             WORDS[part],
+            part in BLEND,
         )
         for part, rows in parts.items()
     )

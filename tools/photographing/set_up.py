@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise, product
 
 import cv2
@@ -13,8 +14,8 @@ from mien.render.camera import Camera as View
 
 CUBE_M, CUBE_CENTRE = 0.42, np.array([0.0, -0.03, 0.0])
 BEAD_M, STRING_M = 0.0028, 0.0005
-SIZE_PX, MARGIN_PX = 3000, 60
-FOCAL_PX = 6900.0
+SIZE_PX, MARGIN_PX = 2400, 48
+FOCAL_PX = 5520.0
 TURN_DEG, SHIFT_M = 1.6, 0.004
 """Standard deviations of how the head is held."""
 
@@ -54,17 +55,19 @@ class Station:
         bent = self.focal_px * (1.0 + self.k1 * (x * x + y * y))
         return np.stack([self.principal_px[0] + bent * x, self.principal_px[1] + bent * y], axis=1)
 
-    def develop(self, picture: np.ndarray, nearest: bool = False) -> np.ndarray:
+    def develop(self, picture: np.ndarray) -> np.ndarray:
         """(SIZE_PX, SIZE_PX, C) photograph, of a picture that a lens without faults took."""
+        return cv2.remap(picture, *self._sources, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+
+    @cached_property
+    def _sources(self) -> np.ndarray:
+        """(2, SIZE_PX, SIZE_PX) pixel of the faultless picture that each pixel of the photograph shows."""
         v, u = np.mgrid[0:SIZE_PX, 0:SIZE_PX] + 0.5
         seen = np.stack([u - self.principal_px[0], v - self.principal_px[1]]) / self.focal_px
         straight = seen.copy()
         for _ in range(8):
             straight = seen / (1.0 + self.k1 * (straight * straight).sum(axis=0))
-        half = picture.shape[0] / 2.0
-        at = (half + self.focal_px * straight - 0.5).astype(np.float32)
-        way = cv2.INTER_NEAREST if nearest else cv2.INTER_LINEAR
-        return cv2.remap(picture, at[0], at[1], way, borderMode=cv2.BORDER_REPLICATE)
+        return (self.scene.size_px[0] / 2.0 + self.focal_px * straight - 0.5).astype(np.float32)
 
 
 def stations(rng: np.random.Generator) -> tuple[Station, ...]:

@@ -21,7 +21,7 @@ SMALL = {"eyes": 0.0004, "lash": 0.0005, "caruncle": 0.0004, "teeth": 0.0005}
 """Radius of the dots on fine parts, m."""
 HIDDEN_BELOW_M = -0.150
 """Height below which the scan is under the garment."""
-SEEN_PX = 6
+SEEN_PX = 5
 """Pixels of a dot from which on it is clicked."""
 DOT_COLOR, BEAD_COLOR, STRING_COLOR = (0.02, 0.05, 0.30), (0.75, 0.05, 0.04), (0.6, 0.6, 0.55)
 PLAIN = Material()

@@ -21,8 +21,10 @@ from .phases import MeasuredPhases, measure_phases
 from .project import read_project, read_solution
 from .project_records import TOPOLOGY, Project
 
-EYES = "eyes"
-"""The part of a topology whose points are the left eyeball."""
+EYES, COLLAR = "eyes", "collar"
+"""Parts of a topology that mean something: the left eyeball, which turns, and a garment, which does not."""
+NECK_M = 0.045
+"""How far above the garment the neck ends and all turns with the head."""
 
 Report = Callable[[str], None]
 
@@ -78,6 +80,7 @@ def make_keypose(folder: Path, out: Path, *, name: str = "", doc: str = "", repo
         doc or project.doc,
         project.unit,
         eyes=_eyes(topology, phases.places[0]),
+        neck=_neck(topology, phases.places[0]),
     )
     keypose = replace(keypose, places=np.round(keypose.places, 6))
     say(f"writing {out}")
@@ -111,12 +114,26 @@ def _painted(topology: KeyposeTopology, colors: Points) -> KeyposeTopology:
 
 def _eyes(topology: KeyposeTopology, rest: Points) -> Eyes | None:
     """The eyeballs, if there is a part that is called so."""
-    for part in topology.parts:
-        if part.name == EYES:
-            points = np.unique([number - 1 for polygon in part.polygons for number in polygon.points])
-            x, y, z = np.round(fit_centre(rest[points]), 6).tolist()
-            return Eyes(EYES, (x, y, z))
-    return None
+    points = _points_of(topology, EYES)
+    if not len(points):
+        return None
+    x, y, z = np.round(fit_centre(rest[points]), 6).tolist()
+    return Eyes(EYES, (x, y, z))
+
+
+def _neck(topology: KeyposeTopology, rest: Points) -> tuple[float, float] | None:
+    """Heights between which the head turns on the shoulders, if there is a part that is called a collar."""
+    points = _points_of(topology, COLLAR)
+    if not len(points):
+        return None
+    top = round(float(rest[points, 1].max()), 4)
+    return top, round(top + NECK_M, 4)
+
+
+def _points_of(topology: KeyposeTopology, name: str) -> Ints:
+    """Sorted numbers, from 0, of the points of a part; none where there is no such part."""
+    polygons = [polygon for part in topology.parts if part.name == name for polygon in part.polygons]
+    return np.unique([number - 1 for polygon in polygons for number in polygon.points]).astype(np.int64)
 
 
 def _color_remarks(looks: Ints) -> tuple[str, ...]:
