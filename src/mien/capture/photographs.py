@@ -5,9 +5,10 @@ from __future__ import annotations
 import io
 import struct
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,19 @@ TURNED = (5, 6, 7, 8)
 """Orientations that stand a picture on its side. Source: Exif 2.32, tag 274."""
 
 ORIENTATION = 274
+
+_TURNS: Mapping[int, Callable[[Pixels], Pixels]] = MappingProxyType(
+    {
+        2: lambda pixels: pixels[:, ::-1],
+        3: lambda pixels: pixels[::-1, ::-1],
+        4: lambda pixels: pixels[::-1],
+        5: lambda pixels: pixels.swapaxes(0, 1),
+        6: lambda pixels: np.rot90(pixels, -1),
+        7: lambda pixels: pixels[::-1, ::-1].swapaxes(0, 1),
+        8: lambda pixels: np.rot90(pixels, 1),
+    }
+)
+"""What sets stored pixels upright, by orientation."""
 
 RAW = frozenset(
     {
@@ -62,7 +76,7 @@ def read_photograph(path: Path) -> Pixels:
         LoadError: it is no picture that can be used, or it is truncated.
     """
     with _opened(path) as image:
-        return np.asarray(_upright(path, image, "RGB"))
+        return _upright(path, image, "RGB")
 
 
 def read_gray(path: Path) -> Pixels:
@@ -72,7 +86,8 @@ def read_gray(path: Path) -> Pixels:
         LoadError: as ``read_photograph``.
     """
     with _opened(path) as image:
-        return np.asarray(_upright(path, image, "L"))
+        image.draft("L", image.size)  # of JPEG, colours need not be decoded
+        return _upright(path, image, "L")
 
 
 def read_thumbnail(path: Path, longest_px: int) -> Pixels:
@@ -83,9 +98,7 @@ def read_thumbnail(path: Path, longest_px: int) -> Pixels:
     """
     with _opened(path) as image:
         image.draft("RGB", (longest_px * 2, longest_px * 2))  # JPEG is decoded at a fraction where that is enough
-        small = _upright(path, image, "RGB")
-        small.thumbnail((longest_px, longest_px))
-        return np.asarray(small)
+        return _upright(path, image, "RGB", longest_px)
 
 
 def lens_key(path: Path) -> tuple[object, ...]:
@@ -152,27 +165,22 @@ def _orientation(image: Image) -> int:
         return 1
 
 
-def _upright(path: Path, image: Image, mode: str) -> Image:
-    from PIL.Image import Transpose
-
+def _upright(path: Path, image: Image, mode: str, longest_px: int | None = None) -> Pixels:
+    """Its pixels in the mode ``RGB`` or ``L``, and made smaller if it is longer than that; the image is closed."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             image.load()
     except _FAULTS as error:
         raise LoadError(path, f"is damaged or not complete ({error})", hint="copy it from the camera again") from None
-    turns = {
-        2: Transpose.FLIP_LEFT_RIGHT,
-        3: Transpose.ROTATE_180,
-        4: Transpose.FLIP_TOP_BOTTOM,
-        5: Transpose.TRANSPOSE,
-        6: Transpose.ROTATE_270,
-        7: Transpose.TRANSVERSE,
-        8: Transpose.ROTATE_90,
-    }
-    turn = turns.get(_orientation(image))
-    plain = _in_srgb(path, image).convert(mode)
-    return plain if turn is None else plain.transpose(turn)
+    orientation = _orientation(image)
+    plain = _in_srgb(path, image)
+    plain = plain if plain.mode == mode else plain.convert(mode)
+    if longest_px is not None:
+        plain.thumbnail((longest_px, longest_px))
+    pixels = np.asarray(plain)
+    image.close()  # a picture of a hundred megapixels need not be there twice
+    return np.ascontiguousarray(_TURNS[orientation](pixels)) if orientation in _TURNS else pixels
 
 
 def _in_srgb(path: Path, image: Image) -> Image:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -163,6 +165,14 @@ def test_boards_are_found_kept_and_listed(tmp_path: Path, capfd: pytest.CaptureF
     assert (float(u), float(v)) == pytest.approx((70.0, 70.0), abs=0.1)
     assert main(["capture", "boards", str(tmp_path), "-q"]) == 0
     assert capfd.readouterr().out == ""
+
+
+def test_reading_a_project_imports_nothing_heavy() -> None:
+    code = (
+        "import mien.capture.project, mien.cli.capture, sys\n"
+        "print([name for name in ('cv2', 'scipy', 'PIL', 'matplotlib', 'numba') if name in sys.modules])"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
 @pytest.mark.parametrize("command", ["", "new", "solve", "boards", "import", "export"])
