@@ -38,6 +38,8 @@ PACKAGES: Mapping[str, str] = MappingProxyType(
         "hibari-tts": "",  # the check of voices imports it
         "onnxruntime": "onnxruntime",
         "matplotlib": "",
+        "scipy": "",
+        "opencv-python-headless": "cv2",
         "pocketsphinx": "",
         "starlette": "starlette",
         "uvicorn": "uvicorn",
