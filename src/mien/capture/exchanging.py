@@ -21,6 +21,7 @@ from .dltdv import (
 from .project import read_project, read_solution, survey_of
 from .project_points import format_points, read_points
 from .project_records import POINTS, Project
+from .projecting import lens_array
 
 CLICKS, PLACES, CAMERAS = "xypts.csv", "xyzpts.csv", "dltcoefs.csv"
 """Ends of the names of files, in small letters, that tell what is in them."""
@@ -97,7 +98,7 @@ def export(folder: Path, out: Path, *, origin: str = ORIGINS[0]) -> list[str]:
         told = []
         if wanted == CAMERAS:
             _write(out, format_coefficients(solution, project.metres, origin))
-            bent = any(camera.lens.k1 or camera.lens.k2 for camera in solution.cameras.values())
+            bent = any(lens_array(camera.lens)[3:].any() for camera in solution.cameras.values())
             note = "; their lenses are taken for straight: the coefficients have no radial terms"
             return [f"{out}: the cameras of the first moment, for lengths in {project.unit}{note * bent}"]
         names = list(dict.fromkeys(name for _, name in solution.points))

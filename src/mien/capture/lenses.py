@@ -16,29 +16,32 @@ PRINCIPAL_SIGMA = 0.05
 """Of the greater side: how far from the middle principal points lie."""
 BEND_SIGMA = 0.15
 """Of its radius: how far a corner of the picture is moved by k1, or by k2."""
+DECENTRED_SIGMA = 0.01
+"""And by p1, or by p2."""
 FOCAL_SIGMA = 0.5
 """Of itself: how far the focal length may be from the guess."""
 TOLD = 0.25
 """Part of the assumed variance that may be left of a term that is let go."""
 EVIDENT = 9.0
-"""χ² by which k2 must differ from 0: it may mimic k1 otherwise."""
-ALL_TERMS = np.array([True, True, True, True, True])
-FIRST_TERMS = np.array([True, False, False, True, False])
+"""χ² of a term by which k2, and decentring, must differ from 0: they may mimic k1 and the principal point otherwise."""
+ALL_TERMS = np.array([True, True, True, True, True, True, True])
+FIRST_TERMS = np.array([True, False, False, True, False, False, False])
 
 
 def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
-    """(L, 5) what is assumed about lenses, and standard deviations of that, from a guess of their focal lengths."""
+    """(L, 7) what is assumed about lenses, and standard deviations of that, from a guess of their focal lengths."""
     means, sigmas = np.zeros_like(lenses), np.ones_like(lenses)
     means[:, 0], means[:, 1:3] = lenses[:, 0], network.sizes / 2.0
     corner = np.linalg.norm(network.sizes, axis=1) / 2.0 / lenses[:, 0]
     sigmas[:, 0] = FOCAL_SIGMA * lenses[:, 0]
     sigmas[:, 1] = sigmas[:, 2] = PRINCIPAL_SIGMA * network.sizes.max(axis=1)
     sigmas[:, 3], sigmas[:, 4] = BEND_SIGMA / corner**2, BEND_SIGMA / corner**4
+    sigmas[:, 5] = sigmas[:, 6] = DECENTRED_SIGMA / (3.0 * corner)
     return means, sigmas
 
 
 def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
-    """(L, 5) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
+    """(L, 7) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
     columns = refined.equations.layout.lenses
     left = np.ones(columns.shape)
     free = columns >= 0
@@ -46,26 +49,35 @@ def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
     return left
 
 
-def borne_bends(refined: Refined, cameras: Points, scale: float) -> Bools:
-    """(L,) whether k2 is told by the data, and is not 0."""
-    columns = refined.equations.layout.lenses[:, 4]
-    variances = np.where(columns >= 0, np.diag(cameras)[columns], np.inf) * scale
-    evident = refined.state.lenses[:, 4] ** 2 > EVIDENT * variances
-    return evident & (left_of_assumptions(refined, cameras)[:, 4] < TOLD)
+def evident_terms(refined: Refined, cameras: Points, scale: float) -> Bools:
+    """(L, 7) terms but k2 and decentring where these are not told by the data, or may be 0."""
+    columns, lenses = refined.equations.layout.lenses, refined.state.lenses
+    told = left_of_assumptions(refined, cameras) < TOLD
+    evident = np.ones(columns.shape, dtype=bool)
+    for number, columns_of_lens in enumerate(columns):
+        for terms in ([4], [5, 6]):
+            here = columns_of_lens[terms]
+            if (here < 0).any():
+                continue
+            values, covariance = lenses[number, terms], cameras[np.ix_(here, here)] * scale
+            chi2 = float(values @ np.linalg.solve(covariance, values))
+            evident[number, terms] = bool(told[number, terms].all()) and chi2 > EVIDENT * len(terms)
+    return evident
 
 
 def borne_terms(refined: Refined, cameras: Points) -> Bools:
-    """(L, 5) terms among those let go that the data tell; the focal length always stays let go."""
+    """(L, 7) terms among those let go that the data tell; the focal length always stays let go."""
     told = left_of_assumptions(refined, cameras) < TOLD
-    told[:, 1] = told[:, 2] = told[:, 1] & told[:, 2]
+    for one, other in ((1, 2), (5, 6)):
+        told[:, one] = told[:, other] = told[:, one] & told[:, other]
     told[:, 0] = True
     return told & refined.problem.free_terms
 
 
 def freed_names(terms: Bools) -> tuple[str, ...]:
-    """Names of (5,) terms as ``Lens.freed`` has them."""
-    flags = (("focal", terms[0]), ("principal", terms[1]), ("k1", terms[3]), ("k2", terms[4]))
-    return tuple(name for name, free in flags if free)
+    """Names of (7,) terms as ``Lens.freed`` has them."""
+    first_terms = {"focal": 0, "principal": 1, "k1": 3, "k2": 4, "decentring": 5}
+    return tuple(name for name, number in first_terms.items() if terms[number])
 
 
 def remarks_on_lenses(network: Network, refined: Refined, cameras: Points) -> list[str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mien.capture.projecting import lens_record, see, see_slopes, turn, turn_slopes, undistort
+from mien.capture.projecting import LENS_TERMS, lens_record, see, see_slopes, turn, turn_slopes, undistort
 from mien.capture.records import Camera
 from mien.core.mesh import Points
 
@@ -23,7 +23,7 @@ TRIPLES = 60
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A rotation (3, 3) and a place (3,) m of a camera, with the (5,) lens that it was found with.
+    """A rotation (3, 3) and a place (3,) m of a camera, with the (7,) lens that it was found with.
 
     ``cost`` is the mean over all points of the square of what is off, of ``FAR`` at most: 0 perfect, 1 hopeless.
     """
@@ -129,7 +129,7 @@ def spread_triples(places: Points, pictures: Points, count: int = TRIPLES) -> ND
 
 
 def place_camera(places: Points, pictures: Points, lens: Points, size_px: float) -> list[Pose]:
-    """Where a camera of a (5,) lens may have stood to see places (N, 3) m at (N, 2) px, the likeliest first."""
+    """Where a camera of a (7,) lens may have stood to see places (N, 3) m at (N, 2) px, the likeliest first."""
     found = likely_poses(lens[None], places, pictures, size_px)
     return sorted(found[0], key=lambda pose: pose.cost)
 
@@ -137,10 +137,10 @@ def place_camera(places: Points, pictures: Points, lens: Points, size_px: float)
 def likely_poses(
     lenses: Points, places: Points, pictures: Points, size_px: float, *, keep: int = 3, rounds: int = 15
 ) -> list[list[Pose]]:
-    """Likely poses of a camera for each of several lenses (L, 5), none where three points do not tell one.
+    """Likely poses of a camera for each of several lenses (L, 7), none where three points do not tell one.
 
     Args:
-        lenses: (L, 5) lenses to try.
+        lenses: (L, 7) lenses to try.
         places: (N, 3) m.
         pictures: (N, 2) px.
         size_px: the greater side of the photograph.
@@ -157,7 +157,7 @@ def likely_poses(
         directions = np.column_stack([flat, np.ones(len(flat))])
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         rotations, centres, _ = three_point_poses(places[triples], directions[triples])
-        costs = _costs(np.broadcast_to(lens, (len(centres), 5)), rotations, centres, places, pictures, size_px)
+        costs = _costs(np.broadcast_to(lens, (len(centres), LENS_TERMS)), rotations, centres, places, pictures, size_px)
         chosen: list[Pose] = []
         for which in np.argsort(costs, kind="stable")[: 12 * keep]:
             rotation = rotations[which]
@@ -237,8 +237,8 @@ def refine_poses(
 
 
 def focal_lenses(size_px: tuple[int, int], count: int = 11) -> Points:
-    """(count, 5) lenses to try for a photograph: from 0.35 to 11 times its greater side, no distortion."""
-    lenses = np.zeros((count, 5))
+    """(count, 7) lenses to try for a photograph: from 0.35 to 11 times its greater side, no distortion."""
+    lenses = np.zeros((count, LENS_TERMS))
     lenses[:, 0] = max(size_px) * np.geomspace(0.35, 11.0, count)
     lenses[:, 1], lenses[:, 2] = size_px[0] / 2.0, size_px[1] / 2.0
     return lenses
@@ -246,7 +246,7 @@ def focal_lenses(size_px: tuple[int, int], count: int = 11) -> Points:
 
 def sensible(pose: Pose, size_px: tuple[int, int]) -> bool:
     """Whether a lens could be one: focal length and principal point within reason of the photograph."""
-    focal, u, v, k1, _ = pose.lens
+    focal, u, v, k1, *_ = pose.lens
     greater = max(size_px)
     centred = abs(u - size_px[0] / 2.0) < 0.3 * greater and abs(v - size_px[1] / 2.0) < 0.3 * greater
     return bool(0.2 * greater < focal < 40.0 * greater and centred and abs(k1) < 5.0)

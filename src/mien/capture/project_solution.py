@@ -97,6 +97,8 @@ def _described_cameras(solution: Solution) -> list[dict[str, object]]:
             "principal_px": [round_float(x, 12) for x in camera.lens.principal_px],
             "k1": round_float(camera.lens.k1, 12),
             "k2": round_float(camera.lens.k2, 12),
+            "p1": round_float(camera.lens.p1, 12),
+            "p2": round_float(camera.lens.p2, 12),
             "freed": list(camera.lens.freed),
             "place_m": [round_float(x, 12) for x in camera.place],
             "rotation": [[round_float(x, 15) for x in row] for row in camera.rotation],
@@ -206,6 +208,8 @@ def _camera(values: Mapping[str, Any]) -> Camera:
         float(values["k1"]),
         float(values["k2"]),
         tuple(map(str, values["freed"])),
+        float(values["p1"]),
+        float(values["p2"]),
     )
     rotation, place = np.array(values["rotation"], float), np.array(values["place_m"], float)
     if rotation.shape != (3, 3) or place.shape != (3,):

@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 from mien.capture.records import Camera, Lens
 from mien.core.mesh import Points
 
-LENS_TERMS = 5
-"""Numbers of a lens in arrays: focal length, principal u and v (px), k1, k2."""
+LENS_TERMS = 7
+"""Numbers of a lens in arrays: focal length, principal u and v (px), k1, k2, p1, p2."""
 
 
 def lens_array(lens: Lens) -> Points:
-    """(5,) numbers of a lens: focal length, principal u and v, k1, k2."""
-    return np.array([lens.focal_px, *lens.principal_px, lens.k1, lens.k2])
+    """(7,) numbers of a lens: focal length, principal u and v, k1, k2, p1, p2."""
+    return np.array([lens.focal_px, *lens.principal_px, lens.k1, lens.k2, lens.p1, lens.p2])
 
 
 def lens_record(terms: Points, freed: tuple[str, ...] = ()) -> Lens:
-    """The lens of (5,) numbers."""
-    focal, u, v, k1, k2 = (float(term) for term in terms)
-    return Lens(focal_px=focal, principal_px=(u, v), k1=k1, k2=k2, freed=freed)
+    """The lens of (7,) numbers."""
+    focal, u, v, k1, k2, p1, p2 = (float(term) for term in terms)
+    return Lens(focal_px=focal, principal_px=(u, v), k1=k1, k2=k2, freed=freed, p1=p1, p2=p2)
 
 
 def in_frame(camera: Camera, places: Points) -> Points:
@@ -40,32 +40,47 @@ def project(camera: Camera, places: Points) -> Points:
 
 
 def see(lenses: Points, frame: Points) -> Points:
-    """(..., 2) px of (..., 3) m in camera frames, by (5,) or (..., 5) lenses.
+    """(..., 2) px of (..., 3) m in camera frames, by (7,) or (..., 7) lenses.
 
-    Source: Brown 1971 (radial terms).
+    Source: Brown 1971.
     """
     directions = frame[..., :2] / frame[..., 2:]
     square = (directions * directions).sum(axis=-1)
     stretch = 1.0 + square * (lenses[..., 3] + square * lenses[..., 4])
-    return lenses[..., 1:3] + (lenses[..., 0] * stretch)[..., None] * directions
+    bent = stretch[..., None] * directions + _decentred(directions, lenses[..., 5], lenses[..., 6])
+    return lenses[..., 1:3] + lenses[..., :1] * bent
+
+
+def _decentred(directions: Points, p1: Points, p2: Points) -> Points:
+    """(..., 2), by how much decentring moves directions (..., 2)."""
+    x, y = directions[..., 0], directions[..., 1]
+    square, cross = x * x + y * y, 2.0 * x * y
+    return np.stack([p1 * cross + p2 * (square + 2.0 * x * x), p1 * (square + 2.0 * y * y) + p2 * cross], axis=-1)
 
 
 def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
-    """What ``see`` gives (N, 2), and its slopes by the lens (N, 2, 5) and by the place in the frame (N, 2, 3)."""
+    """What ``see`` gives (N, 2), and its slopes by the lens (N, 2, 7) and by the place in the frame (N, 2, 3)."""
     inverse = 1.0 / frame[:, 2]
     directions = frame[:, :2] * inverse[:, None]
     square = (directions * directions).sum(axis=1)
     stretch = 1.0 + square * (lenses[:, 3] + square * lenses[:, 4])
-    focal = lenses[:, 0]
+    focal, p1, p2 = lenses[:, 0], lenses[:, 5], lenses[:, 6]
     by_lens = np.zeros((len(frame), 2, LENS_TERMS))
-    by_lens[:, :, 0] = directions * stretch[:, None]
+    by_lens[:, :, 0] = directions * stretch[:, None] + _decentred(directions, p1, p2)
     by_lens[:, 0, 1] = by_lens[:, 1, 2] = 1.0
     by_lens[:, :, 3] = directions * (focal * square)[:, None]
     by_lens[:, :, 4] = by_lens[:, :, 3] * square[:, None]
+    by_lens[:, :, 5] = _decentred(directions, focal, np.zeros_like(focal))
+    by_lens[:, :, 6] = _decentred(directions, np.zeros_like(focal), focal)
     bend = 2.0 * (lenses[:, 3] + 2.0 * square * lenses[:, 4])
     by_direction = bend[:, None, None] * directions[:, :, None] * directions[:, None, :]
     by_direction[:, 0, 0] += stretch
     by_direction[:, 1, 1] += stretch
+    x, y = directions.T
+    by_direction[:, 0, 0] += 2.0 * p1 * y + 6.0 * p2 * x
+    by_direction[:, 1, 1] += 6.0 * p1 * y + 2.0 * p2 * x
+    by_direction[:, 0, 1] += 2.0 * (p1 * x + p2 * y)
+    by_direction[:, 1, 0] += 2.0 * (p1 * x + p2 * y)
     by_frame = np.empty((len(frame), 2, 3))
     by_frame[:, :, :2] = by_direction * (focal * inverse)[:, None, None]
     by_frame[:, :, 2] = -np.einsum("nij,nj->ni", by_frame[:, :, :2], directions)
@@ -83,6 +98,18 @@ def fold(k1: float, k2: float) -> float:
 def undistort(lens: Lens, pictures: Points) -> Points:
     """(N, 2) directions (x/z, y/z) that are seen at (N, 2) px; beyond the ``fold`` those at it."""
     seen = (np.asarray(pictures, dtype=np.float64) - lens.principal_px) / lens.focal_px
+    directions = _straightened(lens, seen)
+    if lens.p1 or lens.p2:
+        for _ in range(20):
+            before = directions
+            directions = _straightened(lens, seen - _decentred(before, np.array(lens.p1), np.array(lens.p2)))
+            if not directions.size or np.abs(directions - before).max() < 1e-14:
+                break
+    return directions
+
+
+def _straightened(lens: Lens, seen: Points) -> Points:
+    """(N, 2) directions that radial terms move to (N, 2)."""
     wanted = np.hypot(seen[:, 0], seen[:, 1])
     limit = fold(lens.k1, lens.k2)
     radius = np.minimum(wanted, limit)

@@ -76,7 +76,7 @@ class Setup:
         size_px: of each photograph.
         spread_deg: angle between the outermost cameras, seen from the middle of the references.
         distance_m: of the cameras from there.
-        k1, k2: distortion of the lenses.
+        k1, k2, p1, p2: distortion of the lenses.
         off_centre: how far principal points may lie off the middle, as a share of the width.
         one_lens: one camera is carried about; else each view has a camera of its own.
         fixed: cameras stand still from moment to moment.
@@ -97,6 +97,8 @@ class Setup:
     distance_m: float = 1.5
     k1: float = 0.0
     k2: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
     off_centre: float = 0.0
     one_lens: bool = True
     fixed: bool = False
@@ -202,7 +204,8 @@ def _cameras(
                 there = np.array([place for (moment, _), place in places.items() if moment == photograph.moment])
                 reach = np.maximum(reach, np.abs(project(cameras[photograph.name], there)).max(axis=0))
         focal = FILLED * float((room / reach).min())
-        lenses[name] = Lens(focal, (float(principal[0]), float(principal[1])), setup.k1, setup.k2)
+        middle = float(principal[0]), float(principal[1])
+        lenses[name] = Lens(focal, middle, setup.k1, setup.k2, (), setup.p1, setup.p2)
     return {each.name: replace(cameras[each.name], lens=lenses[each.camera]) for each in photographs}
 
 

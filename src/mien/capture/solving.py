@@ -12,8 +12,8 @@ from mien.capture.lenses import (
     ALL_TERMS,
     FIRST_TERMS,
     assumptions,
-    borne_bends,
     borne_terms,
+    evident_terms,
     freed_names,
     remarks_on_lenses,
 )
@@ -137,7 +137,7 @@ def _choose_terms(solved: _Solved, say: Report) -> _Solved:
     """A solution in which lens terms that the data do not tell are held at what is assumed."""
     problem = solved.refined.problem
     terms = problem.free_terms.copy()
-    terms[:, 4] &= borne_bends(solved.refined, solved.judgement.covariances.cameras, solved.judgement.scale)
+    terms &= evident_terms(solved.refined, solved.judgement.covariances.cameras, solved.judgement.scale)
     if (terms != problem.free_terms).any():
         problem, state = _hold(problem, solved.refined.state, terms)
         solved = _clean(problem, state, solved.left_out, say)

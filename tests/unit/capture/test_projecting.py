@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mien.capture.projecting import fold, project, rays, see, see_slopes, turn, undistort
+from mien.capture.projecting import LENS_TERMS, fold, lens_array, project, rays, see, see_slopes, turn, undistort
 from mien.capture.records import Camera, Lens
 
 LENS = Lens(focal_px=1000.0, principal_px=(500.0, 400.0), k1=-0.1, k2=0.02)
@@ -33,7 +33,7 @@ def test_undistorted_is_the_way_back(k1: float, k2: float, share: float, angle: 
     lens = Lens(800.0, (320.0, 240.0), k1, k2)
     radius = share * min(fold(k1, k2), 1.5)
     direction = radius * np.array([[np.cos(angle), np.sin(angle)]])
-    seen = see(np.array([800.0, 320.0, 240.0, k1, k2]), np.column_stack([direction, [1.0]]))
+    seen = see(lens_array(lens), np.column_stack([direction, [1.0]]))
     assert undistort(lens, seen)[0] == pytest.approx(direction[0], abs=1e-6)
 
 
@@ -54,12 +54,12 @@ def test_rays_go_through_what_is_seen() -> None:
 
 
 def test_slopes_are_those_of_differences() -> None:
-    lenses = np.array([[1000.0, 500.0, 400.0, -0.1, 0.05], [700.0, 300.0, 200.0, 0.1, -0.02]])
+    lenses = np.array([[1000.0, 500.0, 400.0, -0.1, 0.05, 0.01, -0.02], [700.0, 300.0, 200.0, 0.1, -0.02, 0.0, 0.01]])
     frame = np.array([[0.3, -0.2, 1.1], [-0.5, 0.4, 2.0]])
     seen, by_lens, by_frame = see_slopes(lenses, frame)
     assert seen == pytest.approx(see(lenses, frame))
-    for term in range(5):
-        step = np.eye(5)[term] * np.array([1e-2, 1e-2, 1e-2, 1e-6, 1e-6])[term]
+    for term in range(LENS_TERMS):
+        step = np.eye(LENS_TERMS)[term] * (1e-2 if term < 3 else 1e-6)
         by_difference = (see(lenses + step, frame) - see(lenses - step, frame)) / (2.0 * step[term])
         assert by_lens[:, :, term] == pytest.approx(by_difference, rel=1e-6, abs=1e-6)
     for axis in range(3):

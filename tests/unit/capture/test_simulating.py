@@ -9,7 +9,9 @@ import pytest
 from mien.capture.records import REST, WORLD, Lens
 from mien.capture.simulating import Setup, Simulated, board, cube, face_points, scattered, simulate
 
-DISTORTED = Setup(k1=-0.15, k2=0.05, off_centre=0.02, sigma_px=0.0, turned_deg=80.0, one_lens=False)
+DISTORTED = Setup(
+    k1=-0.15, k2=0.05, p1=0.003, p2=-0.002, off_centre=0.02, sigma_px=0.0, turned_deg=80.0, one_lens=False
+)
 
 
 def seen_by_opencv(simulated: Simulated, photo: str, name: str) -> np.ndarray:
@@ -20,7 +22,9 @@ def seen_by_opencv(simulated: Simulated, photo: str, name: str) -> np.ndarray:
     turn, _ = cv2.Rodrigues(camera.rotation)
     shift = -camera.rotation @ camera.place
     place = simulated.places[moment, name]
-    return cv2.projectPoints(place[None], turn, shift, matrix, np.array([lens.k1, lens.k2, 0.0, 0.0]))[0].ravel()
+    return cv2.projectPoints(place[None], turn, shift, matrix, np.array([lens.k1, lens.k2, lens.p1, lens.p2]))[
+        0
+    ].ravel()
 
 
 def errors_px(simulated: Simulated) -> np.ndarray:
