@@ -93,7 +93,9 @@ def _embed(photograph: Photograph, path: Path | None, suspects: Sequence[Residua
     frames = [_frame_of(each, photograph.size_px) for each in suspects]
     bare = tuple(Crop("", *frame) for frame in frames)
     if path is None:
-        return Embedded("", bare, f"{photograph.name}: the picture is not there, so only what was clicked on it is shown.")
+        return Embedded(
+            "", bare, f"{photograph.name}: the picture is not there, so only what was clicked on it is shown."
+        )
     try:
         pixels = read_photograph(path)
     except LoadError as error:

@@ -121,17 +121,24 @@ def plan_shading(topology: Topology, flat: bool, colored_by_polygon: bool = Fals
         gloss=gloss,
         power=power,
         two_sided=sided[topology.part_of_polygon],
-        neighbours=_find_neighbours(topology, flat or colored_by_polygon),
+        neighbours=_find_neighbours(topology, flat, colored_by_polygon),
         triangle_two_sided=sided[topology.part_of_polygon[topology.polygon_of_triangle]],
         columns=(vertex, polygon, behind, lit[:count], is_round, gloss[:count], power[:count]),
     )
 
 
-def _find_neighbours(topology: Topology, apart: bool) -> Ints32:
-    """(T, 3) as in ``Plan``; an edge that three triangles share has none. ``apart``: each polygon is a surface."""
-    flat = np.array([part.material.flat for part in topology.parts], dtype=bool)
-    part = topology.part_of_polygon
-    surface = np.where(flat[part] | apart, len(topology.parts) + np.arange(topology.polygon_count), part)
+def _find_neighbours(topology: Topology, flat: bool, colored_by_polygon: bool) -> Ints32:
+    """(T, 3) as in ``Plan``; an edge that three triangles share has none.
+
+    A polygon that is flat, or has a colour of its own that does not flow into others, is a surface by itself.
+    """
+    first = len(topology.parts)
+    part, alone = topology.part_of_polygon, first + np.arange(topology.polygon_count)
+    surface = alone if flat or colored_by_polygon else part
+    if colored_by_polygon and not flat and topology.tints is not None:
+        surface = np.where(topology.tints >= 0, first + topology.polygon_count + topology.tints, alone)
+    flat_part = np.array([each.material.flat for each in topology.parts], dtype=bool)
+    surface = np.where(flat_part[part], alone, surface)
     ends = np.stack([topology.triangles, np.roll(topology.triangles, -1, axis=1)]).reshape(2, -1)
     low, high = ends.min(axis=0), ends.max(axis=0)
     surface = np.repeat(surface[topology.polygon_of_triangle], 3)

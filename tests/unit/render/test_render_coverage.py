@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import numba
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from mien.core import Material, Mesh, Scene, build_topology
 from mien.render import draw_mesh, spans
+from mien.render.plan import plan_shading
 from mien.render.reference import coverage
 
 BOTH = pytest.mark.parametrize("rasteriser", ["compiled", "reference"])
@@ -175,3 +177,15 @@ def test_ends_of_compiled_spans_on_a_sample_belong_to_the_pixel() -> None:
         x = column * 256 + 128
         assert first_sample()(float(x), 0.0, 128.0, 128.0) == column
         assert first_sample()(float(x + 1), 0.0, 128.0, 128.0) == column + 1
+
+
+def test_colours_that_flow_into_one_another_have_no_border():
+    quads = np.array([[0, 1, 4, 3], [1, 2, 5, 4]])
+    topology = build_topology(6, [("strip", quads, Material(subdivide=True))])
+
+    def beyond(tints, flat=False):
+        return (plan_shading(replace(topology, tints=tints), flat, True).neighbours >= 0).sum()
+
+    assert beyond(None) == beyond(np.array([0, 1])) == beyond(np.array([-1, -1])) == 4  # the halves of either quad
+    assert beyond(np.array([0, 0])) == 6
+    assert beyond(np.array([0, 0]), flat=True) == 4
