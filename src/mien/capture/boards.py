@@ -69,7 +69,7 @@ def find_corners(
     Raises:
         MienError: a board is not in a photograph that it is said to be in, or in none; a photograph is not there.
     """
-    searches = [(board, photo) for board in boards for photo in photographs if _is_wanted(board, photo)]
+    searches = [(board, photo) for board in boards for photo in photographs if board.may_be_in(photo.name)]
     found: list[Observation] = []
     directions: dict[tuple[str, str], Points] = {}
     for done, (board, photo) in enumerate(searches):
@@ -96,10 +96,6 @@ def find_board(board: Board, gray: NDArray[np.uint8]) -> Points | None:
         return find_chessboard(gray, board.corners)
     corners = find_charuco(gray, board)
     return None if np.isfinite(corners[..., 0]).sum() < LEAST_CORNERS else corners
-
-
-def _is_wanted(board: Board, photo: Photograph) -> bool:
-    return not board.photographs or photo.name in board.photographs
 
 
 def _path(photo: Photograph, board: Board) -> Path:

@@ -7,7 +7,7 @@ known; ``boards.csv`` keeps corners of boards that were found, and ``solution/``
 from __future__ import annotations
 
 import filecmp
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from pathlib import Path
 
@@ -174,16 +174,32 @@ def solve_project(folder: Path | str, *, method: str | None = None, report: Repo
             f"has a [pair], which is solved in its own way, not by {method}",
             hint="leave the method out; orthographic = true under [pair] is as in 1972",
         )
+    say = report or _say_nothing
     if project.boards and not (project.folder / BOARDS).is_file():
-        if report is not None:
-            report("looking for boards")
+        say("looking for boards")
         find_boards(project)
     survey = survey_of(project)
+    for text in _without_corners(project, survey):
+        say(text)
     if project.pair is None:
         from .solving import solve
 
-        return solve(survey, method=method or METHODS[0], report=report)
+        return solve(survey, method=method or METHODS[0], report=say)
     return _solve_pair(survey, project.pair)
+
+
+def _say_nothing(_text: str) -> None:
+    pass
+
+
+def _without_corners(project: Project, survey: Survey) -> Iterator[str]:
+    """What to say where a board that may be in a photograph has no corners in it: perhaps it was not looked for yet."""
+    for board in project.boards:
+        seen = {each.photo for each in survey.observations if each.point.startswith(f"{board.target}:")}
+        missing = [each.name for each in project.photographs if board.may_be_in(each.name) and each.name not in seen]
+        if missing:
+            told = f"{', '.join(missing[:3])}{' …' if len(missing) > 3 else ''}"
+            yield f"no corners of {board.target!r} in {told}; to look again: mien capture boards {project.folder}"
 
 
 def _solve_pair(survey: Survey, pair: Pair) -> Solution:

@@ -55,6 +55,10 @@ class Board:
         """How many corners between squares there are, in (columns, rows)."""
         return self.columns - 1, self.rows - 1
 
+    def may_be_in(self, photo: str) -> bool:
+        """Whether to look for it in the photograph of that name."""
+        return not self.photographs or photo in self.photographs
+
 
 DISTANCE_SIGMA_M = 0.02
 """How exact a distance of a camera is where nothing is told: a tape measure, held to where the lens might begin."""

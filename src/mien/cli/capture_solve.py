@@ -13,6 +13,7 @@ from . import options
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from mien.capture.project_records import Project
     from mien.capture.records import Residual, Solution, SolvedPoint
 
 WORST = 5
@@ -54,11 +55,11 @@ def solve(
     if as_json:
         print_json(described(solution, out))
     elif not quiet:
-        show(summary_lines(solution, folder, project.unit))
+        show(summary_lines(solution, project))
         stages.say(f"{out}: cameras.json, points.csv, residuals.csv, solution.json")
 
 
-def summary_lines(solution: Solution, folder: Path, unit: str) -> list[str]:
+def summary_lines(solution: Solution, project: Project) -> list[str]:
     """What a person is told of a solution."""
     from mien.capture.summaries import measured, worst_points
 
@@ -66,14 +67,14 @@ def summary_lines(solution: Solution, folder: Path, unit: str) -> list[str]:
     lines = [
         f"{solution.method}: {len(solution.cameras)} photographs, {_points(found)}, {clicks} clicks",
         *_error_lines(solution),
-        *([] if not found else _point_lines(found, worst_points(solution, WORST), unit)),
+        *([] if not found else _point_lines(found, worst_points(solution, WORST), project.unit)),
     ]
     if suspects:
         lines += [
             "",
             f"{_count(len(suspects), 'click')} that {'do' if len(suspects) > 1 else 'does'} not fit, left out:",
         ]
-        lines += [f"  {_suspect(each, folder)}" for each in suspects[:WORST]]
+        lines += [f"  {_suspect(each, project)}" for each in suspects[:WORST]]
         lines += [f"  … and {len(suspects) - WORST} more, in residuals.csv"] * (len(suspects) > WORST)
     if solution.remarks:
         lines += ["", "Remarks:", *(f"  {remark}" for remark in solution.remarks)]
@@ -106,12 +107,12 @@ def _point_lines(found: Sequence[SolvedPoint], worst: Sequence[SolvedPoint], uni
     return [f"points are exact to {told(places_rms(found))} (RMS of their sigmas); least exact: {', '.join(names)}"]
 
 
-def _suspect(each: Residual, folder: Path) -> str:
+def _suspect(each: Residual, project: Project) -> str:
     from mien.capture.project_records import BOARDS, POINTS
 
     seen = each.observation
-    file = BOARDS if ":" in seen.point and not (folder / POINTS).is_file() else POINTS
-    place = f"{folder / file}:{seen.line}: " if seen.line else ""
+    file = BOARDS if seen.point.partition(":")[0] in (board.target for board in project.boards) else POINTS
+    place = f"{project.folder / file}:{seen.line}: " if seen.line else ""
     return (
         f"{place}{seen.point} in {seen.photo} is {abs(complex(each.du, each.dv)):.1f} px off "
         f"({each.du:+.1f}, {each.dv:+.1f})"

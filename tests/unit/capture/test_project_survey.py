@@ -97,6 +97,15 @@ def test_a_method_that_is_none(tmp_path: Path) -> None:
         solve_project(folder, method="metric")
 
 
+def test_photographs_without_corners_are_told(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "anna", toml=f"{TOML}\n{BOARD}")
+    (folder / "boards.csv").write_text("photo,point,u,v\nfront.jpg,card:0:0,1,2\n")
+    told: list[str] = []
+    with pytest.raises(MienError):
+        solve_project(folder, report=told.append)
+    assert told[0] == f"no corners of 'card' in left.jpg; to look again: mien capture boards {folder}"
+
+
 def test_boards_are_looked_for_when_they_were_not_yet(tmp_path: Path) -> None:
     folder = make_folder(tmp_path / "anna", toml=f"{TOML}\n{BOARD}")
     told: list[str] = []
