@@ -92,7 +92,7 @@ def export(folder: Path, out: Path, *, origin: str = ORIGINS[0]) -> list[str]:
     if wanted == CLICKS:
         names = point_names(survey.observations)
         _write(out, format_clicks(survey.observations, project.photographs, origin=origin))
-        told = [f"{out}: {len(survey.observations)} clicks of {len(names)} points"]
+        told = [f"{out}: clicks {len(survey.observations)}, points {len(names)}"]
     else:
         solution = read_solution(folder)
         told = []

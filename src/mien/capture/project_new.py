@@ -34,6 +34,26 @@ NOTES = """\
 # lens, at the same zoom; fixed = true: it stood still, too. Then: mien capture solve FOLDER
 """
 
+CUBE_NOTES = """
+# Corners of the cube in references.csv: cube-101 is at the far end of its edges along x and z, at the near end along y.
+# x, y and z are as thumb, forefinger and middle finger of a right hand.
+"""
+
+BOARD_NOTES = """
+# A chessboard in the photographs (its squares counted, not its corners; its side in the unit above):
+# [[board]]
+# kind = "chessboard"
+# columns = 10
+# rows = 7
+# square = 25.0
+"""
+
+PAIR_NOTES = """\
+# scale = ["exocanthion.left", "tragion.left", 92.0]
+# midline = ["nasion", "pogonion"]
+# camera_distance = { "front.jpg" = 1500.0 }
+"""
+
 
 def cube_references(edge_m: float) -> list[Reference]:
     """Corners of a cube, ``cube-000`` to ``cube-111``: which of x, y and z are at the far end of its edges."""
@@ -109,9 +129,12 @@ def begin_project(
         unit=unit,
         pair=Pair(photographs[0].name, photographs[1].name) if pair else None,
     )
-    texts = {PROJECT: f"{NOTES}{format_project(project)}", POINTS: format_points(())}
+    texts = {POINTS: format_points(())}
+    hints = PAIR_NOTES if pair else BOARD_NOTES
     if cube_m is not None and not pair:
         texts[REFERENCES] = format_references(cube_references(cube_m), unit)
+        hints = f"{CUBE_NOTES}{BOARD_NOTES}"
+    texts[PROJECT] = f"{NOTES}{format_project(project)}{hints}"
     if folder.exists():
         _fill(folder, paths, texts)
     else:

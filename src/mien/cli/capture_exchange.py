@@ -51,7 +51,7 @@ def import_points(
         read_project(folder), file, origin=origin, frames=rows, names=called, replace_points=force
     )
     stages = Stages(quiet)
-    stages.say(f"{folder / 'points.csv'}: {added} clicks added; {', '.join(points[:8])}{' …' * (len(points) > 8)}")
+    stages.say(f"{folder / 'points.csv'}: clicks added: {added}; {', '.join(points[:8])}{' …' * (len(points) > 8)}")
 
 
 def _parse_frames(text: str) -> list[int]:

@@ -65,6 +65,10 @@ def test_a_new_folder_gets_copies(tmp_path: Path) -> None:
     ]  # fmt: skip
     survey = read_survey(folder)
     assert len(survey.references) == 8
+    toml = (folder / "project.toml").read_text()
+    board = toml[toml.index("# [[board]]") :].replace("# ", "")
+    (folder / "project.toml").write_text(toml + board)
+    assert read_project(folder).boards[0].corners == (9, 6)
     assert survey.references[-1].x == pytest.approx(0.254)
     assert survey.observations == ()
     assert (folder / "project.toml").read_text().startswith("# What is measured on these photographs goes into points")
@@ -76,6 +80,11 @@ def test_a_folder_with_the_photographs_is_filled(tmp_path: Path) -> None:
     begin_project(tmp_path / "anna", paths, pair=True)
     project = read_project(tmp_path / "anna")
     assert project.pair is not None
+    hints = (tmp_path / "anna" / "project.toml").read_text().replace("# scale", "scale").replace("# mid", "mid")
+    (tmp_path / "anna" / "project.toml").write_text(hints.replace("# camera_dist", "camera_dist"))
+    project = read_project(tmp_path / "anna")
+    assert project.pair is not None
+    assert project.pair.scale == ("exocanthion.left", "tragion.left", pytest.approx(0.092))
     assert (project.pair.front, project.pair.side) == ("front.jpg", "side.jpg")
     assert not (tmp_path / "anna" / "references.csv").exists()
     assert len(read_survey(tmp_path / "anna").observations) == 1

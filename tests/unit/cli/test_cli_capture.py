@@ -119,7 +119,7 @@ def test_begin_import_and_export(tmp_path: Path, capfd: pytest.CaptureFixture[st
     assert "cube-111,300,300,300,," in (tmp_path / "anna" / "references.csv").read_text()
     (tmp_path / "t_xypts.csv").write_text("pt1_cam1_X,pt1_cam1_Y,pt1_cam2_X,pt1_cam2_Y\n1,1,2,2\n")
     assert main(["capture", "import", str(tmp_path / "t_xypts.csv"), folder, "--names", "nose"]) == 0
-    assert "2 clicks added; nose" in capfd.readouterr().err
+    assert "clicks added: 2; nose" in capfd.readouterr().err
     assert main(["capture", "export", folder, "-o", str(tmp_path / "u_xypts.csv"), "-q"]) == 0
     assert capfd.readouterr() == ("", "")
     assert (tmp_path / "u_xypts.csv").read_text() == (tmp_path / "t_xypts.csv").read_text()
