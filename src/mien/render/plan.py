@@ -132,11 +132,11 @@ def _find_neighbours(topology: Topology, flat: bool, colored_by_polygon: bool) -
 
     A polygon that is flat, or has a colour of its own that does not flow into others, is a surface by itself.
     """
-    first = len(topology.parts)
-    part, alone = topology.part_of_polygon, first + np.arange(topology.polygon_count)
+    parts, polygons = len(topology.parts), topology.polygon_count
+    part, alone = topology.part_of_polygon, np.arange(parts, parts + polygons)
     surface = alone if flat or colored_by_polygon else part
     if colored_by_polygon and not flat and topology.tints is not None:
-        surface = np.where(topology.tints >= 0, first + topology.polygon_count + topology.tints, alone)
+        surface = np.where(topology.tints >= 0, parts + polygons + topology.tints, alone)
     flat_part = np.array([each.material.flat for each in topology.parts], dtype=bool)
     surface = np.where(flat_part[part], alone, surface)
     ends = np.stack([topology.triangles, np.roll(topology.triangles, -1, axis=1)]).reshape(2, -1)
