@@ -130,7 +130,7 @@ def rig_of(solution: Solution, sides: Sequence[str] = SIDES) -> Rig:
     matrices, distortions = [], []
     for lens in (left.lens, right.lens):
         (u, v), focal = lens.principal_px, lens.focal_px
-        matrices.append(np.array([[focal, 0.0, u - 0.5], [0.0, focal, v - 0.5], [0.0, 0.0, 1.0]]))
+        matrices.append(np.array([[focal, 0.0, u - 0.5], [0.0, focal * lens.aspect, v - 0.5], [0.0, 0.0, 1.0]]))
         distortions.append(np.array([lens.k1, lens.k2, lens.p1, lens.p2, 0.0]))
     shift = right.rotation @ (left.place - right.place) / SQUARE_M
     return Rig((matrices[0], matrices[1]), (distortions[0], distortions[1]), right.rotation @ left.rotation.T, shift)

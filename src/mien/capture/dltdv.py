@@ -271,7 +271,7 @@ def coefficients(camera: Camera, height: int, metres: float, origin: str = ORIGI
     """
     lens = camera.lens
     u, v = to_pixels(*lens.principal_px, height, origin)
-    down = lens.focal_px if origin == ORIGINS[0] else -lens.focal_px
+    down = lens.focal_px * (lens.aspect if origin == ORIGINS[0] else -lens.aspect)
     inner = np.array([[lens.focal_px, 0.0, u], [0.0, down, v], [0.0, 0.0, 1.0]])
     outer = np.column_stack([camera.rotation * metres, -camera.rotation @ camera.place])
     matrix = inner @ outer

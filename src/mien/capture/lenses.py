@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mien.capture.networks import Bools, Network
+from mien.capture.projecting import LENS_TERMS
 from mien.capture.refining import Refined
 from mien.core.mesh import Points
 
@@ -18,18 +19,20 @@ BEND_SIGMA = 0.15
 """Of its radius: how far a corner of the picture is moved by k1, or by k2."""
 DECENTRED_SIGMA = 0.01
 """And by p1, or by p2."""
+ASPECT_SIGMA = 0.05
+"""How far pixels may be from squares."""
 FOCAL_SIGMA = 0.5
 """Of itself: how far the focal length may be from the guess."""
 TOLD = 0.25
 """Part of the assumed variance that may be left of a term that is let go."""
 EVIDENT = 9.0
-"""χ² of a term by which k2, and decentring, must differ from 0: they may mimic k1 and the principal point otherwise."""
-ALL_TERMS = np.array([True, True, True, True, True, True, True])
-FIRST_TERMS = np.array([True, False, False, True, False, False, False])
+"""χ² of a term by which k2, decentring and aspect must differ from none: they may mimic other terms otherwise."""
+ALL_TERMS = np.ones(LENS_TERMS, dtype=bool)
+FIRST_TERMS = np.isin(np.arange(LENS_TERMS), (0, 3))
 
 
 def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
-    """(L, 7) what is assumed about lenses, and standard deviations of that, from a guess of their focal lengths."""
+    """(L, 8) what is assumed about lenses, and standard deviations of that, from a guess of their focal lengths."""
     means, sigmas = np.zeros_like(lenses), np.ones_like(lenses)
     means[:, 0], means[:, 1:3] = lenses[:, 0], network.sizes / 2.0
     corner = np.linalg.norm(network.sizes, axis=1) / 2.0 / lenses[:, 0]
@@ -37,11 +40,12 @@ def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
     sigmas[:, 1] = sigmas[:, 2] = PRINCIPAL_SIGMA * network.sizes.max(axis=1)
     sigmas[:, 3], sigmas[:, 4] = BEND_SIGMA / corner**2, BEND_SIGMA / corner**4
     sigmas[:, 5] = sigmas[:, 6] = DECENTRED_SIGMA / (3.0 * corner)
+    sigmas[:, 7] = ASPECT_SIGMA
     return means, sigmas
 
 
 def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
-    """(L, 7) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
+    """(L, 8) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
     columns = refined.equations.layout.lenses
     left = np.ones(columns.shape)
     free = columns >= 0
@@ -50,12 +54,12 @@ def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
 
 
 def evident_terms(refined: Refined, cameras: Points, scale: float) -> Bools:
-    """(L, 7) terms but k2 and decentring where these are not told by the data, or may be 0."""
+    """(L, 8) terms but k2, decentring and aspect where these are not told by the data, or may be 0."""
     columns, lenses = refined.equations.layout.lenses, refined.state.lenses
     told = left_of_assumptions(refined, cameras) < TOLD
     evident = np.ones(columns.shape, dtype=bool)
     for number, columns_of_lens in enumerate(columns):
-        for terms in ([4], [5, 6]):
+        for terms in ([4], [5, 6], [7]):
             here = columns_of_lens[terms]
             if (here < 0).any():
                 continue
@@ -66,7 +70,7 @@ def evident_terms(refined: Refined, cameras: Points, scale: float) -> Bools:
 
 
 def borne_terms(refined: Refined, cameras: Points) -> Bools:
-    """(L, 7) terms among those let go that the data tell; the focal length always stays let go."""
+    """(L, 8) terms among those let go that the data tell; the focal length always stays let go."""
     told = left_of_assumptions(refined, cameras) < TOLD
     for one, other in ((1, 2), (5, 6)):
         told[:, one] = told[:, other] = told[:, one] & told[:, other]
@@ -75,8 +79,8 @@ def borne_terms(refined: Refined, cameras: Points) -> Bools:
 
 
 def freed_names(terms: Bools) -> tuple[str, ...]:
-    """Names of (7,) terms as ``Lens.freed`` has them."""
-    first_terms = {"focal": 0, "principal": 1, "k1": 3, "k2": 4, "decentring": 5}
+    """Names of (8,) terms as ``Lens.freed`` has them."""
+    first_terms = {"focal": 0, "principal": 1, "k1": 3, "k2": 4, "decentring": 5, "aspect": 7}
     return tuple(name for name, number in first_terms.items() if terms[number])
 
 

@@ -67,7 +67,7 @@ class State:
     """Numbers of all that is unknown; NaN where it is not known yet.
 
     Attributes:
-        lenses: (L, 7).
+        lenses: (L, 8).
         rotations, places: (S, 3, 3) and (S, 3) m of stations.
         body_rotations, body_places: (B, 3, 3) and (B, 3) m: x in the world = R x in the body + place.
         points: (P, 3) m, of references in the frame of their target.

@@ -23,7 +23,7 @@ TRIPLES = 60
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """A rotation (3, 3) and a place (3,) m of a camera, with the (7,) lens that it was found with.
+    """A rotation (3, 3) and a place (3,) m of a camera, with the (8,) lens that it was found with.
 
     ``cost`` is the mean over all points of the square of what is off, of ``FAR`` at most: 0 perfect, 1 hopeless.
     """
@@ -129,7 +129,7 @@ def spread_triples(places: Points, pictures: Points, count: int = TRIPLES) -> ND
 
 
 def place_camera(places: Points, pictures: Points, lens: Points, size_px: float) -> list[Pose]:
-    """Where a camera of a (7,) lens may have stood to see places (N, 3) m at (N, 2) px, the likeliest first."""
+    """Where a camera of a (8,) lens may have stood to see places (N, 3) m at (N, 2) px, the likeliest first."""
     found = likely_poses(lens[None], places, pictures, size_px)
     return sorted(found[0], key=lambda pose: pose.cost)
 
@@ -137,10 +137,10 @@ def place_camera(places: Points, pictures: Points, lens: Points, size_px: float)
 def likely_poses(
     lenses: Points, places: Points, pictures: Points, size_px: float, *, keep: int = 3, rounds: int = 15
 ) -> list[list[Pose]]:
-    """Likely poses of a camera for each of several lenses (L, 7), none where three points do not tell one.
+    """Likely poses of a camera for each of several lenses (L, 8), none where three points do not tell one.
 
     Args:
-        lenses: (L, 7) lenses to try.
+        lenses: (L, 8) lenses to try.
         places: (N, 3) m.
         pictures: (N, 2) px.
         size_px: the greater side of the photograph.
@@ -237,7 +237,7 @@ def refine_poses(
 
 
 def focal_lenses(size_px: tuple[int, int], count: int = 11) -> Points:
-    """(count, 7) lenses to try for a photograph: from 0.35 to 11 times its greater side, no distortion."""
+    """(count, 8) lenses to try for a photograph: from 0.35 to 11 times its greater side, no distortion."""
     lenses = np.zeros((count, LENS_TERMS))
     lenses[:, 0] = max(size_px) * np.geomspace(0.35, 11.0, count)
     lenses[:, 1], lenses[:, 2] = size_px[0] / 2.0, size_px[1] / 2.0

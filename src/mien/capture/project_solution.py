@@ -99,6 +99,7 @@ def _described_cameras(solution: Solution) -> list[dict[str, object]]:
             "k2": round_float(camera.lens.k2, 12),
             "p1": round_float(camera.lens.p1, 12),
             "p2": round_float(camera.lens.p2, 12),
+            "aspect": round_float(camera.lens.aspect, 12),
             "freed": list(camera.lens.freed),
             "place_m": [round_float(x, 12) for x in camera.place],
             "rotation": [[round_float(x, 15) for x in row] for row in camera.rotation],
@@ -210,6 +211,7 @@ def _camera(values: Mapping[str, Any]) -> Camera:
         tuple(map(str, values["freed"])),
         float(values["p1"]),
         float(values["p2"]),
+        float(values["aspect"]),
     )
     rotation, place = np.array(values["rotation"], float), np.array(values["place_m"], float)
     if rotation.shape != (3, 3) or place.shape != (3,):

@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 from mien.capture.records import Camera, Lens
 from mien.core.mesh import Points
 
-LENS_TERMS = 7
-"""Numbers of a lens in arrays: focal length, principal u and v (px), k1, k2, p1, p2."""
+LENS_TERMS = 8
+"""Numbers of a lens in arrays: focal length, principal u and v (px), k1, k2, p1, p2, aspect less 1."""
 
 
 def lens_array(lens: Lens) -> Points:
-    """(7,) numbers of a lens: focal length, principal u and v, k1, k2, p1, p2."""
-    return np.array([lens.focal_px, *lens.principal_px, lens.k1, lens.k2, lens.p1, lens.p2])
+    """(8,) numbers of a lens: focal length, principal u and v, k1, k2, p1, p2, aspect less 1."""
+    return np.array([lens.focal_px, *lens.principal_px, lens.k1, lens.k2, lens.p1, lens.p2, lens.aspect - 1.0])
 
 
 def lens_record(terms: Points, freed: tuple[str, ...] = ()) -> Lens:
-    """The lens of (7,) numbers."""
-    focal, u, v, k1, k2, p1, p2 = (float(term) for term in terms)
-    return Lens(focal_px=focal, principal_px=(u, v), k1=k1, k2=k2, freed=freed, p1=p1, p2=p2)
+    """The lens of (8,) numbers."""
+    focal, u, v, k1, k2, p1, p2, taller = (float(term) for term in terms)
+    return Lens(focal_px=focal, principal_px=(u, v), k1=k1, k2=k2, freed=freed, p1=p1, p2=p2, aspect=1.0 + taller)
 
 
 def in_frame(camera: Camera, places: Points) -> Points:
@@ -40,7 +40,7 @@ def project(camera: Camera, places: Points) -> Points:
 
 
 def see(lenses: Points, frame: Points) -> Points:
-    """(..., 2) px of (..., 3) m in camera frames, by (7,) or (..., 7) lenses.
+    """(..., 2) px of (..., 3) m in camera frames, by (8,) or (..., 8) lenses.
 
     Source: Brown 1971.
     """
@@ -48,6 +48,7 @@ def see(lenses: Points, frame: Points) -> Points:
     square = (directions * directions).sum(axis=-1)
     stretch = 1.0 + square * (lenses[..., 3] + square * lenses[..., 4])
     bent = stretch[..., None] * directions + _decentred(directions, lenses[..., 5], lenses[..., 6])
+    bent[..., 1] *= 1.0 + lenses[..., 7]
     return lenses[..., 1:3] + lenses[..., :1] * bent
 
 
@@ -59,7 +60,7 @@ def _decentred(directions: Points, p1: Points, p2: Points) -> Points:
 
 
 def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
-    """What ``see`` gives (N, 2), and its slopes by the lens (N, 2, 7) and by the place in the frame (N, 2, 3)."""
+    """What ``see`` gives (N, 2), and its slopes by the lens (N, 2, 8) and by the place in the frame (N, 2, 3)."""
     inverse = 1.0 / frame[:, 2]
     directions = frame[:, :2] * inverse[:, None]
     square = (directions * directions).sum(axis=1)
@@ -67,7 +68,6 @@ def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
     focal, p1, p2 = lenses[:, 0], lenses[:, 5], lenses[:, 6]
     by_lens = np.zeros((len(frame), 2, LENS_TERMS))
     by_lens[:, :, 0] = directions * stretch[:, None] + _decentred(directions, p1, p2)
-    by_lens[:, 0, 1] = by_lens[:, 1, 2] = 1.0
     by_lens[:, :, 3] = directions * (focal * square)[:, None]
     by_lens[:, :, 4] = by_lens[:, :, 3] * square[:, None]
     by_lens[:, :, 5] = _decentred(directions, focal, np.zeros_like(focal))
@@ -84,6 +84,11 @@ def see_slopes(lenses: Points, frame: Points) -> tuple[Points, Points, Points]:
     by_frame = np.empty((len(frame), 2, 3))
     by_frame[:, :, :2] = by_direction * (focal * inverse)[:, None, None]
     by_frame[:, :, 2] = -np.einsum("nij,nj->ni", by_frame[:, :, :2], directions)
+    by_lens[:, 1, 7] = focal * by_lens[:, 1, 0]
+    aspect = 1.0 + lenses[:, 7, None]
+    by_lens[:, 1, :7] *= aspect
+    by_frame[:, 1] *= aspect
+    by_lens[:, 0, 1] = by_lens[:, 1, 2] = 1.0
     return lenses[:, 1:3] + focal[:, None] * by_lens[:, :, 0], by_lens, by_frame
 
 
@@ -97,7 +102,7 @@ def fold(k1: float, k2: float) -> float:
 
 def undistort(lens: Lens, pictures: Points) -> Points:
     """(N, 2) directions (x/z, y/z) that are seen at (N, 2) px; beyond the ``fold`` those at it."""
-    seen = (np.asarray(pictures, dtype=np.float64) - lens.principal_px) / lens.focal_px
+    seen = (np.asarray(pictures, dtype=np.float64) - lens.principal_px) / (lens.focal_px * np.array([1.0, lens.aspect]))
     directions = _straightened(lens, seen)
     if lens.p1 or lens.p2:
         for _ in range(20):

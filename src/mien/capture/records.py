@@ -103,9 +103,10 @@ class Lens:
         focal_px: focal length over the pitch of the pixels.
         principal_px: (u, v) where the optical axis meets the picture.
         k1, k2: radial terms: a direction (x, y, 1) at radius r is seen at (1 + k1 r² + k2 r⁴) times itself.
-        freed: which of ``focal``, ``principal``, ``k1``, ``k2``, ``decentring`` the data were asked for; the others are
-            assumed.
+        freed: which of ``focal``, ``principal``, ``k1``, ``k2``, ``decentring``, ``aspect`` the data were asked for;
+            the others are assumed.
         p1, p2: decentring terms: (2 p1 x y + p2 (r² + 2 x²), p1 (r² + 2 y²) + 2 p2 x y) is added to that.
+        aspect: vertical over horizontal focal length; not 1 of pixels that are no squares (digitised video, scanners).
 
     Source: Brown 1971, "Close-range camera calibration" (signs of p1 and p2 as OpenCV has them).
     """
@@ -117,6 +118,7 @@ class Lens:
     freed: tuple[str, ...] = ()
     p1: float = 0.0
     p2: float = 0.0
+    aspect: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

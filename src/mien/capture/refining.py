@@ -31,9 +31,9 @@ class Problem:
     Attributes:
         network: who sees whom.
         active: (N,) observations that take part.
-        free_terms: (L, 7) lens terms that are let go.
+        free_terms: (L, 8) lens terms that are let go.
         held_bodies: (B,) bodies that stay where they are: the world, and what stands for it.
-        lens_means, lens_sigmas: (L, 7) what is assumed about lens terms and how surely; infinite where nothing is.
+        lens_means, lens_sigmas: (L, 8) what is assumed about lens terms and how surely; infinite where nothing is.
     """
 
     network: Network
@@ -49,7 +49,7 @@ class Layout:
     """Columns of the unknowns of a problem: -1 for what is held.
 
     Attributes:
-        lenses: (L, 7).
+        lenses: (L, 8).
         stations: (S, 6), a turn and a move.
         bodies: (B, 6).
         points: (P,) number among the free points.
@@ -78,7 +78,7 @@ class Equations:
         cost: χ², with what is assumed.
         chi2: of the observations alone.
         off: (A, 2) seen less solved, in standard deviations.
-        by_columns: (A, 2, 19) how that changes with lens, station and body.
+        by_columns: (A, 2, 20) how that changes with lens, station and body.
         by_point: (A, 2, 3) and with the point.
         cameras: (C, C); ties: (F, 3, C); points: (F, 3, 3); camera_right: (C,); point_right: (F, 3).
     """
@@ -142,7 +142,7 @@ def lay_out(problem: Problem) -> Layout:
 
 
 def group_columns(problem: Problem, layout: Layout, group: slice) -> Ints:
-    """(19,) columns that the observations of a group touch."""
+    """(20,) columns that the observations of a group touch."""
     network, first = problem.network, layout.order[group.start]
     return np.concatenate(
         [
@@ -154,7 +154,7 @@ def group_columns(problem: Problem, layout: Layout, group: slice) -> Ints:
 
 
 def differ(problem: Problem, state: State, layout: Layout) -> tuple[Points, Points, Points, Points] | None:
-    """What is off (A, 2) and its slopes by columns (A, 2, 19) and point (A, 2, 3), in standard deviations, and weights.
+    """What is off (A, 2) and its slopes by columns (A, 2, 20) and point (A, 2, 3), in standard deviations, and weights.
 
     None where a point lies behind a camera that sees it.
     """

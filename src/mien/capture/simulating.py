@@ -76,7 +76,7 @@ class Setup:
         size_px: of each photograph.
         spread_deg: angle between the outermost cameras, seen from the middle of the references.
         distance_m: of the cameras from there.
-        k1, k2, p1, p2: distortion of the lenses.
+        k1, k2, p1, p2, aspect: of the lenses.
         off_centre: how far principal points may lie off the middle, as a share of the width.
         one_lens: one camera is carried about; else each view has a camera of its own.
         fixed: cameras stand still from moment to moment.
@@ -99,6 +99,7 @@ class Setup:
     k2: float = 0.0
     p1: float = 0.0
     p2: float = 0.0
+    aspect: float = 1.0
     off_centre: float = 0.0
     one_lens: bool = True
     fixed: bool = False
@@ -205,7 +206,7 @@ def _cameras(
                 reach = np.maximum(reach, np.abs(project(cameras[photograph.name], there)).max(axis=0))
         focal = FILLED * float((room / reach).min())
         middle = float(principal[0]), float(principal[1])
-        lenses[name] = Lens(focal, middle, setup.k1, setup.k2, (), setup.p1, setup.p2)
+        lenses[name] = Lens(focal, middle, setup.k1, setup.k2, (), setup.p1, setup.p2, setup.aspect)
     return {each.name: replace(cameras[each.name], lens=lenses[each.camera]) for each in photographs}
 
 

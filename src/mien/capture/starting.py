@@ -110,7 +110,7 @@ def _guess_lenses(network: Network, state: State, sights: list[Sight]) -> None:
 
 
 def guess_lens(sights: list[Sight], size_px: tuple[int, int]) -> Points:
-    """(7,) likely lens of a camera from what its photographs show.
+    """(8,) likely lens of a camera from what its photographs show.
 
     Points in space tell it directly (the homogeneous matrix); where that fails, and of boards, several focal lengths
     and bends are tried.

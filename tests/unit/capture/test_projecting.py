@@ -54,7 +54,9 @@ def test_rays_go_through_what_is_seen() -> None:
 
 
 def test_slopes_are_those_of_differences() -> None:
-    lenses = np.array([[1000.0, 500.0, 400.0, -0.1, 0.05, 0.01, -0.02], [700.0, 300.0, 200.0, 0.1, -0.02, 0.0, 0.01]])
+    lenses = np.array(
+        [[1000.0, 500.0, 400.0, -0.1, 0.05, 0.01, -0.02, 0.1], [700.0, 300.0, 200.0, 0.1, -0.02, 0.0, 0.01, -0.1]]
+    )
     frame = np.array([[0.3, -0.2, 1.1], [-0.5, 0.4, 2.0]])
     seen, by_lens, by_frame = see_slopes(lenses, frame)
     assert seen == pytest.approx(see(lenses, frame))

@@ -10,7 +10,7 @@ from mien.capture.records import REST, WORLD, Lens
 from mien.capture.simulating import Setup, Simulated, board, cube, face_points, scattered, simulate
 
 DISTORTED = Setup(
-    k1=-0.15, k2=0.05, p1=0.003, p2=-0.002, off_centre=0.02, sigma_px=0.0, turned_deg=80.0, one_lens=False
+    k1=-0.15, k2=0.05, p1=0.003, p2=-0.002, aspect=0.97, off_centre=0.02, sigma_px=0.0, turned_deg=80.0, one_lens=False
 )
 
 
@@ -18,7 +18,9 @@ def seen_by_opencv(simulated: Simulated, photo: str, name: str) -> np.ndarray:
     """(2,) px: OpenCV's centres of pixels are at whole numbers, and half a pixel is in the principal point here."""
     camera, moment = simulated.cameras[photo], simulated.survey.photograph(photo).moment
     lens = camera.lens
-    matrix = np.array([[lens.focal_px, 0, lens.principal_px[0]], [0, lens.focal_px, lens.principal_px[1]], [0, 0, 1]])
+    matrix = np.array(
+        [[lens.focal_px, 0, lens.principal_px[0]], [0, lens.aspect * lens.focal_px, lens.principal_px[1]], [0, 0, 1]]
+    )
     turn, _ = cv2.Rodrigues(camera.rotation)
     shift = -camera.rotation @ camera.place
     place = simulated.places[moment, name]
