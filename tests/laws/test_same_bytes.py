@@ -7,6 +7,8 @@ import sys
 import numpy as np
 import pytest
 
+from support import MASK
+
 PROGRAM = """
 import hashlib
 import sys
@@ -60,13 +62,19 @@ show("outlines", *(contour for path in toon.shape(drawn).paths for contour in pa
 show("toon", draw(toon, drawn, plain, threads=threads))
 egg = load_face("toon:miso+egg")
 show("egg", draw(egg, egg.neutral.replace({"solid.turn": 40.0, "MB": 0.5}), plain, threads=threads))
+measured = load_face(sys.argv[2])
+mixed = measured.neutral.replace({"phase": 2.4, "phase.ou": 0.7, "phase.blink.left": 0.9, "head.turn": 12,
+                                  "eye.nod": 7})
+for face in (measured, measured.unsubdivided):
+    show("phases", face.shape(mixed).points)
+show("measured", draw(measured, mixed, plain, threads=threads))
 show("clear", draw(someone, someone.neutral, replace(plain, background=((0.1, 0.2, 0.3, 0.4),) * 2), threads=threads))
 """
 
 
 def digests(threads, **environment):
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", PROGRAM, str(threads)],
+        [sys.executable, "-W", "ignore", "-c", PROGRAM, str(threads), MASK],
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
@@ -80,7 +88,7 @@ def digests(threads, **environment):
 def test_the_processor_and_the_number_of_threads_decide_no_bit(tmp_path):
     features = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
     here = digests(1)
-    assert len(here) == 14
+    assert len(here) == 17
     others = {
         "a processor of another kind": (3, {"NUMBA_CPU_NAME": "generic", "NUMBA_CACHE_DIR": str(tmp_path)}),
         "NumPy without its fast paths": (2, {"NPY_DISABLE_CPU_FEATURES": features, "OPENBLAS_CORETYPE": "Prescott"}),

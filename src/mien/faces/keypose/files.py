@@ -24,7 +24,7 @@ from .records import UNITS_M, Keypose, KeyposeTopology
 from .settings import FORMAT, VERSION, Settings, read_settings
 from .topology_file import format_topology, read_topology
 
-__all__ = ["SUFFIX", "read_keypose", "read_phase", "read_topology", "write_keypose"]
+__all__ = ["SUFFIX", "read_doc", "read_keypose", "read_phase", "read_topology", "write_keypose"]
 
 SUFFIX = ".keypose"
 SETTINGS, TOPOLOGY, PHASE = "keypose.toml", "topology.txt", ".phase"
@@ -58,6 +58,15 @@ def read_keypose(folder: Path) -> Keypose:
     keypose = _join(settings, topology, np.stack(places), folder)
     _check_outside(folder, keypose)
     return keypose
+
+
+def read_doc(folder: Path) -> str:
+    """Who the face in a folder is, in a line.
+
+    Raises:
+        LoadError: its settings cannot be read.
+    """
+    return read_settings(folder / SETTINGS, read_text(folder / SETTINGS)).doc
 
 
 def _join(settings: Settings, topology: KeyposeTopology, places: Points, folder: Path) -> Keypose:

@@ -10,7 +10,7 @@ from pathlib import Path
 from mien.core import UnknownNameError
 
 from .face import KeyposeFace
-from .files import SUFFIX, read_keypose
+from .files import SUFFIX, read_doc, read_keypose
 
 FAMILY = "keypose"
 
@@ -24,7 +24,7 @@ def keypose_names() -> tuple[str, ...]:
 @cache
 def keyposes() -> Mapping[str, str]:
     """Who each of them is, by address."""
-    return {keypose_address(name): shipped_keypose(name).keypose.doc for name in keypose_names()}
+    return {keypose_address(name): read_doc(_folder() / f"{name}{SUFFIX}") for name in keypose_names()}
 
 
 def keypose_address(name: str) -> str:
