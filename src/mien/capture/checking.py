@@ -120,8 +120,8 @@ def _check_enough(survey: Survey, targets: Mapping[str, Sequence[Reference]]) ->
     more = f"click {listed(there)} too" if there else "measure more of them, and click them"
     raise MienError(
         f"photograph {photo!r} shows {len(names)} {'reference' if len(names) == 1 else 'references'} "
-        f"({listed(names)}), and no other photograph more — want {wanted[photo, target]} in one photograph at least, so that its "
-        f"camera can be found: {more}"
+        f"({listed(names)}), and no other photograph more — want {wanted[photo, target]} in one photograph at "
+        f"least, so that its camera can be found: {more}"
     )
 
 
@@ -206,7 +206,8 @@ def _remarks_on_unseen(survey: Survey) -> Iterator[str]:
         near = {name: difflib.get_close_matches(name, strangers, n=1, cutoff=0.75) for name in unseen}
         guesses = [f"{name!r} by {match[0]!r}" for name, match in near.items() if match]
         hint = f"; is {listed(guesses)} meant?" if guesses else ""
-        yield f"of the references no photograph shows {listed(unseen)} — click {'it' if len(unseen) == 1 else 'them'}{hint}"
+        pronoun = "it" if len(unseen) == 1 else "them"
+        yield f"of the references no photograph shows {listed(unseen)} — click {pronoun}{hint}"
     times = Counter((moments[each.photo], each.point) for each in survey.observations if each.point not in known)
     once: dict[str, list[str]] = defaultdict(list)
     for (moment, point), number in sorted(times.items()):

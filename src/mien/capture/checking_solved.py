@@ -146,8 +146,9 @@ def _remarks_on_pairs(
             if len(shared) != 2:
                 continue
             first, second = shared
+            told = [(seen[first, name], seen[second, name]) for name in (one, other)]
             crossed = [(seen[first, one], seen[second, other]), (seen[first, other], seen[second, one])]
-            if all(_meet(pair, solution) for pair in crossed):
+            if all(_meet(pair, solution) for pair in crossed) and not any(_meet(pair, solution) for pair in told):
                 yield _exchange(shared, one, other, [seen[name, point] for name in shared for point in (one, other)])
 
 

@@ -23,7 +23,17 @@ Cell = tuple[str, str]
 
 def format_photographs(solution: Solution, unit: Unit) -> str:
     """Photographs: size, lens, distance, how many clicks, how well they fit."""
-    heads = ["photograph", "moment", "camera", "size, px", "focal length, px", "principal point, px", "k1", "k2"]
+    heads = [
+        "photograph",
+        "moment",
+        "camera",
+        "size, px",
+        "focal length, px",
+        "principal point, px",
+        "k1",
+        "k2",
+        "p1, p2",
+    ]
     heads += [f"distance, {unit.name}", "clicks", "suspect", "RMS, px"]
     errors = errors_by_photo(solution)
     rows = [_photograph_row(each, solution, errors.get(each.name), unit) for each in solution.survey.photographs]
@@ -37,7 +47,7 @@ def _photograph_row(photograph: Photograph, solution: Solution, error: float | N
     suspects = sum(each.observation.photo == name for each in solution.suspects)
     size = "{} × {}".format(*photograph.size_px)
     row = [_text(name), _text(photograph.moment), _text(photograph.camera), (size, str(photograph.size_px[0]))]
-    row += _lens_cells(camera, photograph.size_px) if camera else [("not placed", "")] + [("", "")] * 3
+    row += _lens_cells(camera, photograph.size_px) if camera else [("not placed", "")] + [("", "")] * 4
     distance = _distance(camera, solution, photograph.moment) if camera else math.nan
     row.append((significant(distance / unit.metres), str(distance)) if math.isfinite(distance) else ("", ""))
     row.append(_integer(clicks))
@@ -56,6 +66,7 @@ def _lens_cells(camera: Camera, size_px: tuple[int, int]) -> list[Cell]:
         "principal": (f"{fixed(u, 1)}, {fixed(v, 1)}", math.hypot(u - width / 2.0, v - height / 2.0)),
         "k1": (fixed(lens.k1, 4), lens.k1),
         "k2": (fixed(lens.k2, 4), lens.k2),
+        "decentring": (f"{fixed(lens.p1, 4)}, {fixed(lens.p2, 4)}", math.hypot(lens.p1, lens.p2)),
     }
     return [
         (told if term in lens.freed else f'<span class="assumed">{told}</span>', str(value))

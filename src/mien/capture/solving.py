@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mien.capture.checking import check
+from mien.capture.checking_solved import remarks_on
 from mien.capture.covariances import Covariances
 from mien.capture.lenses import (
     ALL_TERMS,
@@ -44,9 +46,9 @@ def solve(survey: Survey, *, method: str = "metric", report: Report | None = Non
     """
     if method not in METHODS:
         raise UnknownNameError("method", method, METHODS)
-    if method == "appendix-c":
-        return solve_appendix_c(survey)
-    return _solve_metric(survey, report or _say_nothing)
+    weak = check(survey)
+    solution = solve_appendix_c(survey) if method == "appendix-c" else _solve_metric(survey, report or _say_nothing)
+    return replace(solution, remarks=(*weak, *solution.remarks, *remarks_on(solution)))
 
 
 def _say_nothing(_text: str) -> None:
@@ -246,8 +248,8 @@ def _remarks_on_missing(network: Network, active: Bools, left_out: Bools) -> lis
     placed = set(network.point_of[active].tolist())
     for point in sorted(set(network.point_of.tolist()) - placed):
         moment, name = network.points[point]
-        if network.known[point]:
-            continue
+        if network.known[point] or (network.point_of == point).sum() < 2:
+            continue  # what one photograph alone shows was told before
         views = (network.point_of == point) & np.isin(network.photo_of, list(shown))
         if (views & left_out).any():
             remarks.append(
