@@ -18,15 +18,17 @@ import numpy as np
 from mien.core import MienError, UnknownNameError
 
 from .pair_clicks import FRONT, SIDE, Bools, Clicks, gather, twin_name
-from .pair_refining import FLIP, NEARNESS_MEAN, Fit, Known, refine
+from .pair_refining import DISTANCE_M, Fit, Known, apart, refine
 from .pair_results import mirrored, points_of, remarks_of, residuals_of, words_of_suspects
 from .pair_start import SIDES, place_roughly
-from .pair_views import NEARNESS, SCALE, View
+from .pair_views import FLAT, NEARNESS, SCALE, View
 from .records import WORLD, Solution, Survey
 
 FEWEST, FEWEST_PERSPECTIVE = 3, 6
 """Points seen in both photographs, without and with perspective."""
 
+SHORTEST = 0.08
+"""Of the extent of the face: the length that it is scaled by."""
 TAPE_SIGMA_M = 0.02
 FAULTY = 18.0
 """χ² of one degree of freedom beyond which a click is taken for a mistake: one of 45 000 right ones."""
@@ -216,13 +218,15 @@ def _renumbered(known: Known, clicks: Clicks, used: Clicks) -> tuple[tuple[int, 
 
 def _fit(clicks: Clicks, known: Known, side_from: str | None, names: tuple[str, str]) -> Fit:
     front, side, places = place_roughly(clicks, side_from, names)
-    flips = [FLIP if mirrored else np.ones(3) for _, mirrored in known.ends]
-    apart = [places[number] * flip for (number, _), flip in zip(known.ends, flips, strict=True)]
-    metres = known.length_m / max(float(np.linalg.norm(apart[0] - apart[1])), 1e-9)
-    nearness = [
-        0.0 if known.orthographic else 1.0 / known.tape_m[view][0] if view in known.tape_m else NEARNESS_MEAN
-        for view in (FRONT, SIDE)
-    ]
+    pictured, extent = float(np.linalg.norm(apart(known, places))), float(np.ptp(places, axis=0).max())
+    if pictured < SHORTEST * extent:
+        one, other = (clicks.names[number] for number, _ in known.ends)
+        raise MienError(
+            f"the told length from {one!r} to {other!r} is {pictured / extent:.1%} of the clicked face, want "
+            f"{SHORTEST:.0%} or more to scale by — tell a longer one"
+        )
+    metres = known.length_m / pictured
+    nearness = [FLAT if known.orthographic else -math.log(known.tape_m.get(v, (DISTANCE_M,))[0]) for v in (FRONT, SIDE)]
     views = [_in_metres(view, metres, near) for view, near in zip((front, side), nearness, strict=True)]
     return refine(clicks, known, views[FRONT], views[SIDE], places * metres)
 

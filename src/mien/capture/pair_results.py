@@ -111,15 +111,14 @@ def remarks_of(clicks: Clicks, known: Known, fit: Fit, photographs: tuple[str, s
 
 
 def _words_of_distance(view: int, name: str, known: Known, fit: Fit) -> str:
-    nearness = float(fit.views[view].values[NEARNESS])
-    vague = deviation(fit, known, view, NEARNESS) / nearness
+    metres, vague = 1.0 / fit.views[view].nearness, deviation(fit, known, view, NEARNESS)
     if vague > VAGUE:
         return (
-            f"the data hardly tell how far the camera of {name!r} stood: about {1.0 / nearness:.1f} m assumed — "
+            f"the data hardly tell how far the camera of {name!r} stood: about {metres:.1f} m assumed — "
             "measure it (camera_distance), or click more points in both photographs"
         )
     told = " (with the tape)" if view in known.tape_m else ""
-    return f"the camera of {name!r} stood {1.0 / nearness:.2f} ± {vague / nearness:.2f} m from the head{told}"
+    return f"the camera of {name!r} stood {metres:.2f} ± {metres * vague:.2f} m from the head{told}"
 
 
 def _words_of_turn(known: Known, fit: Fit, name: str) -> str:

@@ -41,8 +41,63 @@ class PairSetup:
 
 HEAD_M = 0.23
 FRONT_FILE, SIDE_FILE = "front.jpg", "side.jpg"
-FACING = 0.15
-"""Cosine of the angle to the camera below which a spot on the skin is too slanted to be clicked."""
+FACING, OUTLINE = 0.15, -0.1
+"""Cosine of the angle to the camera below which a spot on the skin is too slanted to be clicked, and below which a spot
+of the profile, which is the outline of the face in the side photograph, lies behind it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Points marked on a face.
+
+    Attributes:
+        places: (3,) m by name, about the middle of the head.
+        normals: (3,) by name, outwards.
+        midline: names of points in the symmetry plane.
+    """
+
+    places: Mapping[str, Points]
+    normals: Mapping[str, Points]
+    midline: tuple[str, ...]
+
+
+BACK_M, LOW_M = -0.03, -0.09
+"""Marks lie before and above these z and y of the head's frame: forehead, face, ears, throat."""
+
+
+def marks_of_head(count: int, seed: int = 0, *, both_sides: bool = False) -> Marks:
+    """Points of the built-in head, one sixth of them on the midline.
+
+    Args:
+        count: of points; those of the right half come on top.
+        seed: which ones.
+        both_sides: points off the midline are marked in both halves, as ``NAME.left`` and ``NAME.right``.
+    """
+    from mien.faces.head.measured import archive
+
+    head = archive()
+    places = head.measured("surface").points
+    outside = head.quads[np.isin(np.array(head.group_names)[head.groups], ["skin", "lips", "lids", "ear"])]
+    normals = np.zeros_like(places)
+    corners = places[outside]
+    np.add.at(normals, outside, np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])[:, None])
+    marked = {n for n in np.unique(outside).tolist() if places[n, 1] > LOW_M and places[n, 2] > BACK_M}
+    left = sorted(name for name, number in head.vertex.items() if number in marked)
+    random = np.random.default_rng(seed)
+    left = [left[number] for number in random.permutation(len(left))]
+    midline = [name for name in left if head.mirror[head.vertex[name]] == head.vertex[name]][: count // 6]
+    off = [name for name in left if head.mirror[head.vertex[name]] != head.vertex[name]][: count - len(midline)]
+    numbers = {name: head.vertex[name] for name in midline}
+    for name in off:
+        numbers[f"{name}.left" if both_sides else name] = head.vertex[name]
+        if both_sides:
+            numbers[f"{name}.right"] = int(head.mirror[head.vertex[name]])
+    middle = np.mean([places[number] for number in numbers.values()], axis=0) * [0.0, 1.0, 1.0]
+    return Marks(
+        {name: places[number] - middle for name, number in numbers.items()},
+        {name: normals[number] / np.linalg.norm(normals[number]) for name, number in numbers.items()},
+        tuple(midline),
+    )
 
 
 def cameras_of(setup: PairSetup) -> tuple[View, View]:
@@ -53,30 +108,24 @@ def cameras_of(setup: PairSetup) -> tuple[View, View]:
         values[PITCH : PITCH + 3] = np.radians(setup.turns_deg[number])
         values[3:5] = np.multiply(setup.offsets[number], setup.sizes_px[number])
         values[SCALE] = math.log(setup.filled[number] * setup.sizes_px[number][1] / HEAD_M)
-        values[NEARNESS] = 1.0 / setup.distances_m[number]
+        values[NEARNESS] = -math.log(setup.distances_m[number])
         views.append(View(base, values))
     return views[0], views[1]
 
 
-def simulate_pair(
-    setup: PairSetup, places: Mapping[str, Points], normals: Mapping[str, Points], seed: int = 0
-) -> tuple[Survey, dict[str, Camera]]:
-    """A survey of a pair, and the true cameras by photograph.
-
-    Args:
-        places: (3,) m by name, in the frame of the head about its middle.
-        normals: (3,) by name; what is turned away from a camera is not clicked there.
-    """
+def simulate_pair(setup: PairSetup, marks: Marks, seed: int = 0) -> tuple[Survey, dict[str, Camera]]:
+    """A survey of a pair, and the true cameras by photograph; a mark turned away from a camera is not clicked there."""
     random = np.random.default_rng(seed)
     observations, photographs, cameras = [], [], {}
     for view, name, size in zip(cameras_of(setup), (FRONT_FILE, SIDE_FILE), setup.sizes_px, strict=True):
         camera = view.camera(size)
         cameras[name] = camera
         photographs.append(Photograph(name, size, "a" if setup.one_lens else name))
-        for point, place in places.items():
+        for point, place in marks.places.items():
             ray = camera.place - place
             error = setup.sigma_px * random.normal(size=2)
-            if normals[point] @ ray > FACING * np.linalg.norm(ray):
+            least = OUTLINE if point in marks.midline else FACING
+            if marks.normals[point] @ ray > least * np.linalg.norm(ray):
                 u, v = view.seen(place[None])[0] + 0.5 * np.array(size) + error
                 observations.append(Observation(name, point, float(u), float(v), setup.sigma_px))
     return Survey(tuple(photographs), tuple(observations), ()), cameras

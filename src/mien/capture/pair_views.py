@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,11 +13,13 @@ from .records import Camera, Lens
 
 PITCH, YAW, ROLL, RIGHTWARDS, DOWNWARDS, SCALE, NEARNESS = range(7)
 """Parameters of a view: three turns about the camera's x, y and z (rad), where the face's origin is seen (px from the
-middle of the picture), ln of px per metre there, and one over the distance from there (1/m). The focal length is the
-scale times the distance: a picture of a face tells its scale well, its perspective a little, and their product no
-better than the perspective. At nearness 0 the view is orthographic."""
+middle of the picture), ln of px per metre there, and ln of one over the distance from there (1/m). The focal length is
+the scale times the distance: a picture of a face tells its scale well, its perspective a little, and their product no
+better than the perspective. At
+``FLAT`` the view is orthographic."""
 
 COUNT = 7
+FLAT = -math.inf
 FAR_M = 1e4
 """Where an orthographic camera is said to stand: perspective is then less than a hundred-thousandth of the face."""
 
@@ -41,7 +44,12 @@ class View:
     @property
     def scale(self) -> float:
         """Px per metre at the origin."""
-        return float(np.exp(self.values[SCALE]))
+        return math.exp(self.values[SCALE])
+
+    @property
+    def nearness(self) -> float:
+        """One over the distance from the origin, 1/m; 0 without perspective."""
+        return math.exp(self.values[NEARNESS])
 
     def seen(self, places: Points) -> Points:
         """(N, 2) px from the middle of the picture, of places (N, 3)."""
@@ -53,7 +61,7 @@ class View:
         rotation = self.rotation
         turned = places @ rotation.T
         away = self._recession(turned)[:, :, None]
-        to_depth = self.values[NEARNESS] * self.seen(places)[:, :, None] * rotation[2]
+        to_depth = self.nearness * self.seen(places)[:, :, None] * rotation[2]
         return (self.scale * rotation[:2] - to_depth) / away
 
     def depths(self, places: Points) -> Points:
@@ -62,16 +70,15 @@ class View:
 
     def towards(self) -> Points:
         """(3,) from the origin to the camera, of a length near one."""
-        values = self.values
-        offset = values[RIGHTWARDS : DOWNWARDS + 1] * values[NEARNESS] / self.scale
+        offset = self.values[RIGHTWARDS : DOWNWARDS + 1] * self.nearness / self.scale
         return -np.array([*offset, 1.0]) @ self.rotation
 
     def _recession(self, turned: Points) -> Points:
-        return 1.0 + self.values[NEARNESS] * turned[:, 2:]
+        return 1.0 + self.nearness * turned[:, 2:]
 
     def camera(self, size_px: tuple[int, int]) -> Camera:
         """The same as a record, its optical axis through the middle of the picture."""
-        distance = 1.0 / max(float(self.values[NEARNESS]), 1.0 / FAR_M)
+        distance = 1.0 / max(self.nearness, 1.0 / FAR_M)
         offset = self.values[RIGHTWARDS : DOWNWARDS + 1] / self.scale
         lens = Lens(self.scale * distance, (0.5 * size_px[0], 0.5 * size_px[1]), freed=("focal",))
         return Camera(lens, self.rotation, -np.array([*offset, distance]) @ self.rotation)
