@@ -262,7 +262,7 @@ def format_places(solution: Solution, names: Sequence[str], metres: float) -> st
 
 
 def coefficients(camera: Camera, height: int, metres: float, origin: str = ORIGINS[0]) -> Points:
-    """The 11 coefficients (11,) of a camera without its radial terms, for lengths in a unit of so many metres.
+    """The 11 coefficients (11,) of a camera without distortion, for lengths in a unit of so many metres.
 
     A place is seen at (L1 x + L2 y + L3 z + L4) / (L9 x + L10 y + L11 z + 1), and with L5 to L8 above the same.
 

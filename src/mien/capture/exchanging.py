@@ -99,7 +99,7 @@ def export(folder: Path, out: Path, *, origin: str = ORIGINS[0]) -> list[str]:
         if wanted == CAMERAS:
             _write(out, format_coefficients(solution, project.metres, origin))
             bent = any(lens_array(camera.lens)[3:7].any() for camera in solution.cameras.values())
-            note = "; their lenses are taken for straight: the coefficients have no radial terms"
+            note = "; their lenses are taken for straight: the coefficients have no terms of distortion"
             return [f"{out}: the cameras of the first moment, for lengths in {project.unit}{note * bent}"]
         names = list(dict.fromkeys(name for _, name in solution.points))
         _write(out, format_places(solution, names, project.metres))

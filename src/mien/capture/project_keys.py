@@ -177,10 +177,7 @@ def read_keys(path: Path) -> Keys:
         raise LoadError(
             path, f"is not TOML: {message}", line=line, hint='texts stand in double quotes, name = "smile"'
         ) from None
-    except (
-        RecursionError,
-        ValueError,
-    ) as error:  # brackets within brackets without end, numbers of thousands of digits
+    except (RecursionError, ValueError) as error:  # brackets without end, numbers of thousands of digits
         raise LoadError(path, f"is not TOML: {error}") from None
 
 

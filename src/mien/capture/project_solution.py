@@ -194,10 +194,7 @@ def _read_json(path: Path) -> Any:
         return json.loads(read_text(path))
     except json.JSONDecodeError as error:
         raise LoadError(path, f"column {error.colno}: {error.msg}", line=error.lineno, hint="want JSON") from None
-    except (
-        RecursionError,
-        ValueError,
-    ) as error:  # brackets within brackets without end, numbers of thousands of digits
+    except (RecursionError, ValueError) as error:  # brackets without end, numbers of thousands of digits
         raise LoadError(path, f"is not JSON: {error}") from None
 
 

@@ -74,7 +74,7 @@ def export_points(
     """Write clicks, points or cameras of a project for DLTdv, Argus and easyWand.
 
     The name of OUT picks what: …xypts.csv clicks, …xyzpts.csv points in the unit of the project, …dltCoefs.csv the 11
-    coefficients of each camera, without its radial terms. A file …_pointnames.csv beside it names the points.
+    coefficients of each camera, without the distortion of its lens. A file …_pointnames.csv beside it names the points.
 
     \b
     mien capture export anna -o anna_xypts.csv

@@ -59,10 +59,13 @@ def turned(angle: float) -> np.ndarray:
 def make_solution(survey: Survey, points: Iterable[SolvedPoint] = (), suspects: Iterable[Observation] = ()) -> Solution:
     """A solution with made-up numbers for all that the survey has."""
     cameras = {
-        photo.name: Camera(Lens(500.5 + number, (200.25, 150.0), -0.1, 0.01, ("focal", "k1")), turned(0.3 * number),
-                           np.array([0.1 * number, 0.2, 1.0 / 3.0]))
+        photo.name: Camera(
+            Lens(500.5 + number, (200.25, 150.0), -0.1, 0.01, ("focal", "k1"), 1e-3, -2e-3, 1.01),
+            turned(0.3 * number),
+            np.array([0.1 * number, 0.2, 1.0 / 3.0]),
+        )
         for number, photo in enumerate(survey.photographs)
-    }  # fmt: skip
+    }
     residuals = tuple(Residual(each, 0.25, -0.5, 1.5) for each in survey.observations)
     wrong = {(each.photo, each.point) for each in suspects}
     bad = tuple(each for each in residuals if (each.observation.photo, each.observation.point) in wrong)

@@ -127,11 +127,11 @@ def test_clicks_come_back_with_their_names(tmp_path_factory: pytest.TempPathFact
 @pytest.mark.parametrize("origin", ORIGINS)
 @pytest.mark.parametrize("metres", [1.0, 0.001])
 def test_coefficients_see_places_where_the_camera_does(origin: str, metres: float) -> None:
-    camera = Camera(Lens(800.0, (210.0, 140.0)), turned(0.4), np.array([0.5, 0.1, 1.2]))
+    camera = Camera(Lens(800.0, (210.0, 140.0), aspect=1.1), turned(0.4), np.array([0.5, 0.1, 1.2]))
     found = coefficients(camera, 300, metres, origin)
     place = np.array([0.03, -0.05, 0.02])
     x, y, z = camera.rotation @ (place - camera.place)
-    u, v = 800.0 * x / z + 210.0, 800.0 * y / z + 140.0
+    u, v = 800.0 * x / z + 210.0, 880.0 * y / z + 140.0
     top = found[:8].reshape(2, 4) @ [*place / metres, 1.0]
     bottom = found[8:] @ (place / metres) + 1.0
     np.testing.assert_allclose(top / bottom, to_pixels(u, v, 300, origin), atol=1e-9)
@@ -193,7 +193,7 @@ def test_the_name_of_a_file_tells_what_to_export(tmp_path: Path) -> None:
     write_solution(folder, make_solution(Survey(project.photographs, (), ()), [point]))
     (told,) = export(folder, tmp_path / "anna_dltCoefs.csv")
     assert told.endswith(
-        "for lengths in mm; their lenses are taken for straight: the coefficients have no radial terms"
+        "for lengths in mm; their lenses are taken for straight: the coefficients have no terms of distortion"
     )
     export(folder, tmp_path / "anna-xyzpts.csv")
     assert (tmp_path / "anna-xyzpts.csv").read_text() == "pt1_X,pt1_Y,pt1_Z\n10,20,30\n"
