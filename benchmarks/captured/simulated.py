@@ -104,9 +104,10 @@ def coverage(simulated: Simulated, solution: Solution) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Hunt:
-    """What became of mis-clicks: those found of those made, and false alarms of good clicks."""
+    """What became of mis-clicks: those found, and those whose point was, of those made; false alarms of good clicks."""
 
     found: int
+    named: int
     made: int
     false: int
     good: int
@@ -118,7 +119,8 @@ def hunt(simulated: Simulated) -> Hunt:
     suspects = {(each.observation.photo, each.observation.point) for each in solution.suspects}
     wrong = simulated.mis_clicks
     good = len(simulated.survey.observations) - len(wrong)
-    return Hunt(len(suspects & wrong), len(wrong), len(suspects - wrong), good)
+    named = sum(point in {name for _, name in suspects} for _, point in wrong)
+    return Hunt(len(suspects & wrong), named, len(wrong), len(suspects - wrong), good)
 
 
 def outcomes(setup: Setup, methods: Sequence[str], seeds: range) -> dict[str, list[Outcome | None]]:
