@@ -162,12 +162,25 @@ def write_keypose(folder: Path | str, keypose: Keypose) -> None:
             new.mkdir()
             for name, text in _texts(keypose).items():
                 (new / name).write_text(text, encoding="utf-8", newline="\n")
-            read_keypose(new)
+            _check_readable(new, target)
             if target.exists():
                 target.rename(old)
-            new.rename(target)
+            try:
+                new.rename(target)
+            except OSError:
+                if old.exists():
+                    old.rename(target)
+                raise
         except OSError as error:
             raise MienError(f"{target}: cannot be written: {error.strerror} — write somewhere else") from None
+
+
+def _check_readable(new: Path, target: Path) -> None:
+    """Nothing, when what was written can be read; names the places where it will lie."""
+    try:
+        read_keypose(new)
+    except LoadError as error:
+        raise MienError(str(error).replace(str(new), str(target))) from None
 
 
 def _is_ours(folder: Path) -> bool:

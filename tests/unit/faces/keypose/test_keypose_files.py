@@ -199,9 +199,9 @@ def test_a_right_half_a_wide_midline_and_polygons_inside_out_are_told(mask):
         replace(part, polygons=tuple(replace(polygon, points=polygon.points[::-1]) for polygon in part.polygons))
         for part in whole.topology.parts
     ]
-    with pytest.raises(LoadError, match="inside out"):
+    with pytest.raises(MienError, match=r"mask\.keypose/topology\.txt: is inside out"):
         write_keypose(mask, replace(whole, topology=replace(whole.topology, parts=tuple(turned))))
-    with pytest.raises(LoadError, match="right half"):
+    with pytest.raises(MienError, match="right half"):
         write_keypose(mask, replace(whole, places=whole.places * (-1.0, 1.0, 1.0)))
     assert read_keypose(mask).places.tobytes() == whole.places.tobytes()
 
@@ -233,6 +233,21 @@ def test_what_is_written_is_read_again(mask, tmp_path, unit):
     write_keypose(tmp_path / "copy.keypose", again)
     assert {path.name: path.read_bytes() for path in (tmp_path / "copy.keypose").iterdir()} == first
     assert sorted(path.name for path in tmp_path.iterdir()) == ["copy.keypose", "mask.keypose"]
+
+
+def test_an_older_face_stays_when_the_new_one_cannot_take_its_place(mask, monkeypatch):
+    before, rename = read_keypose(mask), Path.rename
+
+    def refuse(self, target):
+        if self.parent.name.startswith(".mien-") and self.name == mask.name:
+            raise PermissionError(13, "Permission denied")
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", refuse)
+    with pytest.raises(MienError, match="cannot be written: Permission denied"):
+        write_keypose(mask, replace(before, doc="newer"))
+    assert read_keypose(mask).doc == before.doc
+    assert [path.name for path in mask.parent.iterdir()] == [mask.name]
 
 
 def test_nothing_else_is_written_over(mask, tmp_path):
