@@ -53,9 +53,23 @@ class Wanted:
 
     @classmethod
     def of(cls, moves: Points, growth: float) -> Wanted:
-        """From moves (V + 2, 3) m of the cage and of the eyes."""
-        cage = moves[:-2]
+        """From moves (V + 2, 3) m of the cage and of the eyes; the lips of a face at rest go on meeting."""
+        cage = _with_lips_met(moves[:-2])
         return cls(cage, _on_surface(cage), moves[-2:], growth)
+
+
+def _with_lips_met(moves: Points) -> Points:
+    """Moves (V, 3) m of the cage by which lips meet as the neutral head's do: points of both are not exact."""
+    from mien.faces.head.lips import contacts_of
+    from mien.faces.head.measured import archive
+
+    contacts = contacts_of(archive(), archive().floats("cage"))
+    out = moves.copy()
+    for (upper, lower), upper_part in zip(contacts.numbers, contacts.gaps[:, 4], strict=True):
+        gap = contacts.shares[:, None] * (out[lower[0]] - out[upper[0]])
+        out[upper] += upper_part * gap
+        out[lower] -= (1.0 - upper_part) * gap
+    return out
 
 
 def _on_surface(cage: Points) -> Points:
