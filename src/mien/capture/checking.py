@@ -213,13 +213,15 @@ def _remarks_on_unseen(survey: Survey) -> Iterator[str]:
     for (moment, point), number in sorted(times.items()):
         if number == 1:
             once[moment].append(point)
-    for moment, points in once.items():
-        where = f" of moment {moment!r}" if len(set(moments.values())) > 1 else ""
-        yield (
-            f"{_plural(len(points), 'point')}{where} {'is' if len(points) == 1 else 'are'} clicked in one photograph "
-            f"only and {'gets' if len(points) == 1 else 'get'} no place: {listed(points)} — click "
-            f"{'it' if len(points) == 1 else 'them'} in another one, or look whether names are spelt alike"
-        )
+    if not once:
+        return
+    points = list(dict.fromkeys(point for names in once.values() for point in names))
+    pronoun = "it" if len(points) == 1 else "them"
+    where = f", {listed(f'{len(names)} of {moment}' for moment, names in once.items())}" if len(once) > 1 else ""
+    yield (
+        f"{_plural(sum(map(len, once.values())), 'point')} clicked in one photograph only{where}, without a place: "
+        f"{listed(points)} — click {pronoun} in another one, or look whether names are spelt alike"
+    )
 
 
 def _plural(number: int, noun: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import resources
@@ -28,6 +28,9 @@ from .summaries import measured
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 """The page asks no other machine for anything."""
 
+LONG = 400
+"""Rows of a table from which on it is folded away."""
+
 
 def write_report(
     solution: Solution,
@@ -37,6 +40,7 @@ def write_report(
     unit: str = "mm",
     pictures: Mapping[str, Path] | None = None,
     polygons: Sequence[Sequence[str]] = (),
+    report: Callable[[int, int], None] | None = None,
 ) -> tuple[str, ...]:
     """Writes the page; what could not be shown, a sentence each.
 
@@ -47,13 +51,14 @@ def write_report(
         unit: of lengths: m, cm, mm or inch.
         pictures: files of photographs by name; those of others are where the survey says.
         polygons: of names of points, drawn as lines between them; without any, neighbours are joined.
+        report: is told how many photographs are done, of how many.
 
     Raises:
         UnknownNameError: there is no such unit.
         MienError: the file cannot be written.
     """
     measure = Unit.of(unit, solution)
-    embedded = embed(solution.survey.photographs, pictures or {}, solution.suspects)
+    embedded = embed(solution.survey.photographs, pictures or {}, solution.suspects, report)
     sheet = _Sheet(solution, name, measure, embedded, polygons)
     with writing(out) as place:
         place.write_text("".join(sheet.format()), encoding="utf-8", newline="\n")
@@ -86,17 +91,17 @@ class _Sheet:
         if self.solution.suspects:
             yield self._format_suspects(self.solution.suspects)
         yield self._format_pictures()
-        yield from self._format_moments()
+        yield self._format_moments()
         points = sorted(measured(self.solution), key=lambda each: (each.moment, each.name))
         known = sorted(
             (each for each in self.solution.points.values() if each.kind == REFERENCE),
             key=lambda each: (each.moment, each.name),
         )
         if points:
-            yield _section("Points", _POINTS + format_points(points, self.unit))
+            table = _folded(len(points) > LONG, count(len(points), "point"), format_points(points, self.unit), False)
+            yield _section("Points", _POINTS + table)
         if known:
-            summary = f"<summary>{count(len(known), 'reference')}</summary>"
-            yield f"<details>{summary}{format_points(known, self.unit)}</details>\n"
+            yield _folded(True, count(len(known), "reference"), format_points(known, self.unit), False)
         yield f"</main>\n<footer>{escape(software())}</footer>\n<script>\n{_data('report.js')}</script>\n"
         yield "</body>\n</html>\n"
 
@@ -129,33 +134,35 @@ class _Sheet:
 
     def _format_pictures(self) -> str:
         times = arrow_magnification(self.solution)
-        figures = "".join(
-            format_photograph(each, self.solution, self.embedded[each.name], times)
-            for each in self.solution.survey.photographs
-        )
         most = max(Counter(each.photo for each in self.solution.survey.observations).values(), default=0)
-        shown = " checked" if most <= NAMED else ""
+        checked = " checked" if most <= NAMED else ""
         told = (
             f"<p>Arrows lead from where the solution has a point to where it was clicked, <b>{times:g} times</b> as "
             "long as they are. Rings are points, squares are references; suspects are red and not magnified. "
             "A click makes a photograph large. "
-            f'<label><input type="checkbox" id="names"{shown}> names</label></p>'
+            f'<label><input type="checkbox" id="names"{checked}> names</label></p>'
         )
-        return _section("Residuals", f'{told}<div class="photographs">\n{figures}</div>')
+        groups: dict[str, list[str]] = {}
+        for each in self.solution.survey.photographs:
+            figure = format_photograph(each, self.solution, self.embedded[each.name], times)
+            groups.setdefault(each.moment, []).append(figure)
+        shown = (
+            _folded(len(groups) > 1, moment, f'<div class="photographs">\n{"".join(figures)}</div>\n', number == 0)
+            for number, (moment, figures) in enumerate(groups.items())
+        )
+        return _section("Residuals", told + "".join(shown))
 
-    def _format_moments(self) -> Iterator[str]:
+    def _format_moments(self) -> str:
         moments = list(dict.fromkeys(each.moment for each in self.solution.survey.photographs))
-        for number, moment in enumerate(moments):
+        drawn: list[str] = []
+        for moment in moments:
             references = references_of(self.solution, moment)
             own = [each for each in measured(self.solution) if each.moment == moment]
             if not (own or references):
                 continue
             inside = self._format_moment(own or references, references if own else [], moment)
-            if len(moments) == 1:
-                yield _section("In space", inside)
-            else:
-                opened = " open" if number == 0 else ""
-                yield f"<details{opened}><summary><h2>In space: {escape(moment)}</h2></summary>{inside}</details>\n"
+            drawn.append(_folded(len(moments) > 1, moment, inside, not drawn))
+        return _section("In space", "".join(drawn)) if drawn else ""
 
     def _format_moment(self, points: list[SolvedPoint], references: list[SolvedPoint], moment: str) -> str:
         names = [each.name for each in points]
@@ -247,6 +254,12 @@ def _format_head(title: str) -> str:
         f'<meta name="generator" content="{escape(software())}">\n'
         f"<style>\n{_data('report.css')}</style>\n</head>\n<body>\n"
     )
+
+
+def _folded(folds: bool, title: str, inside: str, is_open: bool) -> str:
+    """What can be folded away under its title, if it is to be."""
+    opened = " open" if is_open else ""
+    return f"<details{opened}><summary>{escape(title)}</summary>\n{inside}</details>\n" if folds else inside
 
 
 def _section(title: str, inside: str) -> str:

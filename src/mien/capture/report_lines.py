@@ -7,10 +7,31 @@ from itertools import pairwise
 
 from mien.core.mesh import Points
 
+from .marks import MARKS, plain_marks, read_marks
+from .project_records import TOPOLOGY, Project
+
 Edges = list[tuple[int, int]]
 
-MOST = 600
+MOST = 300
 """Points up to which neighbours are looked for; more are a surface by themselves."""
+
+
+def polygons_of(project: Project) -> list[tuple[str, ...]]:
+    """Polygons of a project's topology, by names of their points; none where it has no topology.
+
+    Raises:
+        LoadError: what is wrong with the topology, or with the file of its names.
+    """
+    from mien.faces.keypose.topology_file import read_topology
+
+    if not (project.folder / TOPOLOGY).is_file():
+        return []
+    topology = read_topology(project.folder / TOPOLOGY)
+    file = project.folder / MARKS
+    marks = (
+        read_marks(file, topology.point_count, project.unit) if file.is_file() else plain_marks(topology.point_count)
+    )
+    return [tuple(marks.names[number - 1] for number in polygon.points) for polygon in topology.polygons]
 
 
 def edges_of(names: Sequence[str], places: Points, polygons: Sequence[Sequence[str]]) -> Edges:

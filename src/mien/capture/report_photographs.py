@@ -28,6 +28,10 @@ NAMED = 60
 """Clicks of a photograph up to which names of all are shown at first."""
 
 
+LABELLED = 150
+"""Clicks of a photograph up to which there is room for names; of more, the pointer tells them."""
+
+
 def arrow_magnification(solution: Solution) -> float:
     """How much longer than they are residuals are drawn, in all photographs alike: 1, 2, 5, 10 …"""
     lengths = [
@@ -110,11 +114,12 @@ def _format_names(
     good: Sequence[Residual], suspects: Sequence[Residual], width: float, height: float, unit: float
 ) -> Iterator[str]:
     """Names where there is room: those of suspects always, of others unless they would lie on one another."""
+    named = good if len(good) <= LABELLED else []
     taken: list[Box] = [
         (each.observation.u - 0.3 * unit, each.observation.v - 0.3 * unit, 0.6 * unit, 0.6 * unit)
         for each in (*good, *suspects)
     ]
-    for each, bad in [(each, True) for each in suspects] + [(each, False) for each in good]:
+    for each, bad in [(each, True) for each in suspects] + [(each, False) for each in named]:
         seen = each.observation
         place = _room(seen.u, seen.v, len(seen.point) * LETTER_SHAPE * unit, unit, taken, (width, height), bad)
         if place is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,7 +65,10 @@ class Embedded:
 
 
 def embed(
-    photographs: Sequence[Photograph], paths: Mapping[str, Path], suspects: Sequence[Residual]
+    photographs: Sequence[Photograph],
+    paths: Mapping[str, Path],
+    suspects: Sequence[Residual],
+    report: Callable[[int, int], None] | None = None,
 ) -> dict[str, Embedded]:
     """All photographs by name, small, with a crop of each suspect.
 
@@ -73,12 +76,15 @@ def embed(
         photographs: of the survey.
         paths: of files by name of the photograph; without one, where the photograph says that it lies.
         suspects: mis-clicks in them.
+        report: is told how many are done, of how many.
     """
     longest = _longest_side(photographs)
     embedded = {}
-    for photograph in photographs:
+    for number, photograph in enumerate(photographs, start=1):
         own = [each for each in suspects if each.observation.photo == photograph.name]
         embedded[photograph.name] = _embed(photograph, paths.get(photograph.name, photograph.path), own, longest)
+        if report is not None:
+            report(number, len(photographs))
     return embedded
 
 

@@ -28,6 +28,7 @@ def report(folder: Folder, out: Out = None, quiet: options.Quiet = False) -> Non
     from mien.capture.project import read_project, read_solution
     from mien.capture.project_records import SOLUTION
     from mien.capture.report import write_report
+    from mien.capture.report_lines import polygons_of
     from mien.core import MienError
     from mien.formats.atomic import check_file
 
@@ -39,8 +40,11 @@ def report(folder: Folder, out: Out = None, quiet: options.Quiet = False) -> Non
     project, solution = read_project(folder), read_solution(folder)
     place = out or folder / SOLUTION / "report.html"
     check_file(place)
-    with stages.stage("written"):
-        missing = write_report(solution, place, name=project.name, unit=project.unit)
+    polygons = polygons_of(project)
+    with stages.progress("photographs") as progress:
+        missing = write_report(
+            solution, place, name=project.name, unit=project.unit, polygons=polygons, report=progress
+        )
     for remark in missing:
         stages.say(remark)
     stages.say(f"{place}: {place.stat().st_size / 1e6:.1f} MB")

@@ -202,7 +202,7 @@ def test_points_that_one_photograph_shows_are_told_together(survey):
     alone = {"p003", "p004"}
     few = keep(survey, lambda each: each.point not in alone or each.photo == "view1.jpg")
     (remark,) = check(few)
-    assert "2 points are clicked in one photograph only and get no place: p003, p004" in remark
+    assert "2 points clicked in one photograph only, without a place: p003, p004" in remark
     assert sum("p003" in each for each in solve(few).remarks) == 1
 
 
@@ -271,3 +271,12 @@ def test_unit_that_makes_a_giant(survey):
     )
     (remark,) = remarks_on(solve(giant))
     assert "is the unit of the references in project.toml right?" in remark
+
+
+def test_points_of_many_moments_that_one_photograph_shows_are_one_remark():
+    simulated = simulate(Setup(references=cube(), points=9, views=2, moments=3), 2).survey
+    few = keep(simulated, lambda each: each.point not in ("p003", "p004") or "view1" in each.photo)
+    (remark,) = check(few)
+    assert (
+        "6 points clicked in one photograph only, 2 of m01, 2 of m02, 2 of m03, without a place: p003, p004" in remark
+    )
