@@ -38,6 +38,8 @@ PEOPLE = Path(__file__).parent / "photographing/people.csv"
 CLICK_PX = 0.5
 """Standard deviation of a click."""
 QUALITY = 92
+THICKER_M = 0.003
+"""How much thicker hair of few polygons is: they cut corners off, and the skull must not show."""
 
 
 def person(name: str) -> dict[str, str]:
@@ -67,7 +69,9 @@ def photograph(reference: Path, name: str, out: Path) -> None:
     """Write the project."""
     row = person(name)
     seed = int(row["seed"])
-    cap = replace(CAPS[row["hair"]], columns=34, rows=11, groove=0.0, locks=0, ragged=0.0)
+    style = CAPS[row["hair"]]
+    thick = tuple((around, thickness + THICKER_M) for around, thickness in style.thick)
+    cap = replace(style, columns=34, rows=11, thick=thick, groove=0.0, locks=0, ragged=0.0)
     scan = Scan(Reference(reference))
     studio = Studio(Subject(scan, scan.identity(row["who"])), draft(cap), row["palette"], seed)
     (out / PICTURES).mkdir(parents=True, exist_ok=True)

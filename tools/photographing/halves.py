@@ -21,6 +21,8 @@ SPOT = 0.085
 TOOTH_RINGS, TOOTH_CORNERS = (0, 1, 3), (7, 0, 2, 3)
 FRONT_TEETH = tuple(range(4, 16, 2))
 """Of the left upper crowns, the first molar to the central incisor; the lower ones are 16 further on."""
+MOUTH_BAG = {"mj": (0.9, 0.014), "mk": (0.7, 0.036)}
+"""Rings of the inside of the mouth: how wide they are over the rim of the lips, and how far behind it, m."""
 LONGER_M = 0.002
 """How much lower the upper teeth stand than in the shipped head: lips that open show them."""
 BROW_STATIONS, BROW_ROWS = (0, 2, 4, 6, 8, 10, 12, 14), (0, 1, 2, 3)
@@ -142,7 +144,23 @@ def _skin(half: Half) -> None:
             label = "blush" if blush > 0.5 else "skin"
         polygons.append((corners, label))
     half.midline += [name for number, name in enumerate(names) if head.mirror[number] == number]
-    half.add(Piece(tuple(names), lambda state: state.skin[:count]), "skin", polygons)
+    bag = [
+        (
+            deep,
+            np.array([head.vertex[f"{ring}_{k}"] for k in range(10)]),
+            np.array([head.vertex[f"m0_{k}"] for k in range(10)]),
+        )
+        for ring, deep in MOUTH_BAG.items()
+    ]
+
+    def place(state: State) -> np.ndarray:
+        skin = state.skin[:count].copy()
+        for (narrow, back), rows, rim in bag:
+            middle = skin[rim].mean(axis=0) * [0.0, 1.0, 1.0]
+            skin[rows] = middle + narrow * (skin[rim] - middle) - [0.0, 0.0, back]
+        return skin
+
+    half.add(Piece(tuple(names), place), "skin", polygons)
 
 
 # ---------------------------------------------------------------- eyes

@@ -21,7 +21,7 @@ SMALL = {"eyes": 0.0004, "lash": 0.0005, "caruncle": 0.0004, "teeth": 0.0005}
 """Radius of the dots on fine parts, m."""
 HIDDEN_BELOW_M = -0.150
 """Height below which the scan is under the garment."""
-SEEN_PX = 5
+SEEN_PX = 4
 """Pixels of a dot from which on it is clicked."""
 DOT_COLOR, BEAD_COLOR, STRING_COLOR = (0.02, 0.05, 0.30), (0.75, 0.05, 0.04), (0.6, 0.6, 0.55)
 PLAIN = Material()
@@ -151,7 +151,9 @@ class Studio:
             (name, np.pad(rows, ((0, 0), (0, widest - rows.shape[1])), mode="edge"), m) for name, rows, m in parts
         ]
         lit = build_topology(count, padded)
-        plain = build_topology(count, [(n, r, Material(lit=False, two_sided=m.two_sided)) for n, r, m in padded])
+        # Roots of lashes are clicked between the lashes.
+        dark = [(n, r, Material(lit=False, two_sided=m.two_sided)) for n, r, m in padded if not n.startswith("lash")]
+        plain = build_topology(count, dark)
         where = np.concatenate(points)
         return Mesh(lit, where, np.concatenate(colors)), Mesh(plain, where, np.concatenate(numbers))
 

@@ -17,6 +17,8 @@ Bools = NDArray[np.bool_]
 
 ENOUGH = 6
 """Points of a body from which on its own place is fitted."""
+MIDDLE_M = 0.002
+"""A body that comes so near to the plane of symmetry is one with its mirror image."""
 
 
 def members(marks: Marks) -> Mapping[str, Ints]:
@@ -29,33 +31,43 @@ def settle_bodies(places: Points, seen: Bools, marks: Marks) -> None:
     """Put each body of all phases (K, N, 3) m into one shape, that of the phase which shows most of it.
 
     Its shape is the model's, scaled and moved onto what is seen. In a phase that shows enough of it, it is moved onto
-    that; in others it goes along with the points that it follows, or stays where it follows none.
+    that; in others it goes along with the points that it follows, or stays where it follows none. A body that reaches
+    the plane of symmetry, such as a row of teeth, moves together with its mirror image: it neither turns nor shifts
+    sideways.
     """
     if marks.model is None:
         return
     number = {name: k for k, name in enumerate(marks.names)}
     for points in members(marks).values():
+        whole = bool(np.abs(marks.model[points, 0]).min() < MIDDLE_M)
         counts = seen[:, points].sum(axis=1)
         best = int(counts.argmax())
         shown = points[seen[best, points]] if counts[best] >= ENOUGH else points
-        motion, scale = fit_similarity(marks.model[shown], places[best, shown])
+        motion, scale = fit_similarity(_whole(marks.model[shown], whole), _whole(places[best, shown], whole))
         shape = motion.apply(scale * marks.model[points])
         follows = np.array([number[name] for name in marks.follows[points[0]]], dtype=np.int64)
         for phase in range(len(places)):
-            places[phase, points] = _moved(shape, places, seen, points, follows, best, phase)
+            there = seen[phase, points]
+            if np.count_nonzero(there) >= ENOUGH:
+                start, goal = shape[there], places[phase, points[there]]
+            elif len(follows) and phase != best:
+                start, goal = places[best, follows], places[phase, follows]
+            else:
+                start = goal = shape
+            places[phase, points] = _motion(_whole(start, whole), _whole(goal, whole)).apply(shape)
 
 
-def _moved(shape: Points, places: Points, seen: Bools, points: Ints, follows: Ints, best: int, phase: int) -> Points:
-    """The body's points in a phase."""
-    there = seen[phase, points]
-    if np.count_nonzero(there) >= ENOUGH:
-        return fit_motion(shape[there], places[phase, points[there]]).apply(shape)
-    if not len(follows) or phase == best:
-        return shape
+def _whole(points: Points, both: bool) -> Points:
+    """Points (N, 3) m, with their mirror images if there are two halves."""
+    return np.concatenate([points, points * [-1.0, 1.0, 1.0]]) if both else points
+
+
+def _motion(points: Points, wanted: Points) -> Motion:
+    """The motion of points (N, 3) m onto others; a shift alone where they are too few or too narrow to turn."""
     try:
-        return fit_motion(places[best, follows], places[phase, follows]).apply(shape)
-    except MienError:  # what it follows is too little to turn it
-        return Motion(np.eye(3), (places[phase, follows] - places[best, follows]).mean(axis=0)).apply(shape)
+        return fit_motion(points, wanted)
+    except MienError:
+        return Motion(np.eye(3), (wanted - points).mean(axis=0))
 
 
 def fit_centre(points: Points) -> Points:

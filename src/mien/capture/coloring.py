@@ -22,7 +22,7 @@ corners than a square all."""
 INNER = (0.15, 0.35, 0.55)
 """How far from its middle towards its corners a polygon is looked at: dots at the corners are not its colour."""
 LEAST_PX = 3.0
-"""A polygon whose corners lie nearer to its middle is too small to be looked at."""
+"""A polygon that is narrower, or turns its back, is not looked at."""
 OUTLIER = 2.5
 """Colours farther from the median than so many median distances are ignored."""
 MOST = 0.5
@@ -75,7 +75,7 @@ def sample_colors(
 def _looks(corners: Floats, picture: Picture) -> Iterator[Floats]:
     """Colours of pixels inside of a polygon whose corners (n, 2) px are."""
     middle = corners.mean(axis=0)
-    if len(corners) < 3 or np.linalg.norm(corners - middle, axis=1).max() < LEAST_PX:
+    if len(corners) < 3 or _area(corners) < LEAST_PX * 2.0 * np.linalg.norm(corners - middle, axis=1).max():
         return
     height, width = picture.shape[:2]
     for share in INNER:
@@ -83,6 +83,12 @@ def _looks(corners: Floats, picture: Picture) -> Iterator[Floats]:
             u, v = np.floor(middle + share * (corner - middle)).astype(int)
             if 0 <= u < width and 0 <= v < height:
                 yield picture[v, u].astype(np.float64)
+
+
+def _area(corners: Floats) -> float:
+    """Px², negative where corners (n, 2) px, clockwise from outside, are seen from behind."""
+    u, v = corners.T
+    return 0.5 * float((u * np.roll(v, -1) - np.roll(u, -1) * v).sum())
 
 
 def middle_color(looks: Floats) -> Floats:

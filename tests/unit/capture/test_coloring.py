@@ -9,7 +9,7 @@ from mien.capture.records import Camera, Lens, Observation, Photograph, Solution
 from mien.faces.keypose.records import KeyposeTopology, Polygon, SkinPart
 
 SQUARE = ((-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5))
-TWO = KeyposeTopology((SkinPart("skin", (Polygon((1, 2, 3, 4), "#808080"), Polygon((4, 3, 5, 6), "#808080"))),), ())
+TWO = KeyposeTopology((SkinPart("skin", (Polygon((1, 4, 3, 2), "#808080"), Polygon((4, 6, 5, 3), "#808080"))),), ())
 """Two squares with an edge in common."""
 
 
@@ -48,6 +48,13 @@ def test_a_polygon_of_which_only_an_edge_is_seen_is_not_looked_at():
     assert looks.tolist() == [0, 0]
 
 
+def test_a_polygon_that_turns_its_back_is_not_looked_at():
+    behind = KeyposeTopology(
+        (SkinPart("skin", (Polygon((1, 2, 3, 4), "#808080"), Polygon((3, 5, 6, 4), "#808080"))),), ()
+    )
+    assert sample_colors(seen_square("123456"), behind, list("123456"), lambda _: picture())[1].tolist() == [0, 0]
+
+
 def test_a_highlight_is_ignored():
     looks = np.array([[100.0, 80.0, 60.0]] * 9 + [[102.0, 80.0, 60.0]] * 2 + [[255.0, 255.0, 255.0]] * 3)
     np.testing.assert_allclose(middle_color(looks), [100.0 + 4.0 / 11.0, 80.0, 60.0])
@@ -62,7 +69,7 @@ def test_neighbours_drafted_alike_come_nearer_to_one_another():
 
 def test_neighbours_drafted_otherwise_keep_their_border():
     other = KeyposeTopology(
-        (SkinPart("skin", (Polygon((1, 2, 3, 4), "#808080"), Polygon((4, 3, 5, 6), "#ff0000"))),), ()
+        (SkinPart("skin", (Polygon((1, 4, 3, 2), "#808080"), Polygon((4, 6, 5, 3), "#ff0000"))),), ()
     )
     colors = np.array([[100.0, 100.0, 100.0], [200.0, 10.0, 10.0]])
     np.testing.assert_allclose(even_out(colors, other), colors)

@@ -117,5 +117,14 @@ def test_hidden_teeth_go_along_with_the_chin():
     np.testing.assert_allclose(places[1], model, atol=1e-9)
 
 
+def test_a_row_of_teeth_does_not_slip_sideways():
+    row = np.array([[0.004 * k, 0.003 * (k % 2), 0.09 - 0.2 * (0.004 * k) ** 2] for k in range(8)])
+    marks = Marks(plain_marks(8).names, ("teeth",) * 8, ((),) * 8, row)
+    places = np.stack([row + np.random.default_rng(4).normal(0.0, 3e-4, row.shape)])
+    settle_bodies(places, np.ones((1, 8), dtype=bool), marks)
+    assert abs(places[0, 0, 0]) < 1e-12
+    np.testing.assert_allclose(places[0], row, atol=6e-4)
+
+
 def test_the_middle_of_a_ball():
     np.testing.assert_allclose(fit_centre(BALL + np.array([0.03, 0.02, 0.1])), [0.03, 0.02, 0.1], atol=1e-9)
