@@ -20,13 +20,16 @@ from .report_lines import Edges, edges_of
 from .report_numbers import REFERENCE, Exactness, Unit, count, significant
 from .report_photographs import NAMED, arrow_magnification, format_photograph
 from .report_pictures import Embedded, embed
-from .report_tables import format_crops, format_photographs, format_points, format_suspects
+from .report_tables import format_crops, format_lenses, format_photographs, format_points, format_suspects
 from .report_views import CHI2_95, Standpoint, format_plan, format_views, references_of, standpoint
 from .report_words import explanations, lead
 from .summaries import measured
 
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 """The page asks no other machine for anything."""
+
+MANY = 24
+"""Photographs from which on their table is folded away."""
 
 LONG = 400
 """Rows of a table from which on it is folded away."""
@@ -87,7 +90,10 @@ class _Sheet:
         exactness = Exactness.of(self.solution)
         yield _format_head(self.title)
         yield from self._format_summary(exactness)
-        yield _section("Photographs", format_photographs(self.solution, self.unit) + _ASSUMED)
+        yield _section("Lenses", format_lenses(self.solution) + _ASSUMED)
+        number = len(self.solution.survey.photographs)
+        table = format_photographs(self.solution, self.unit)
+        yield _section("Photographs", _folded(number > MANY, count(number, "photograph"), table, False))
         if self.solution.suspects:
             yield self._format_suspects(self.solution.suspects)
         yield self._format_pictures()
@@ -189,10 +195,9 @@ class _Sheet:
             if each.moment == moment and each.name in self.solution.cameras
         }
         plan = format_plan(own, center, [*points, *references], self.unit)
-        return (
-            f'{told}<div class="views">{figures}</div><div class="spaces">{orbit}'
-            f'<figure class="plan">{plan}<figcaption>from above, with cameras</figcaption></figure></div>'
-        )
+        if plan:
+            plan = f'<figure class="plan">{plan}<figcaption>from above, with cameras</figcaption></figure>'
+        return f'{told}<div class="views">{figures}</div><div class="spaces">{orbit}{plan}</div>'
 
     def _data_of(
         self,

@@ -158,7 +158,7 @@ def format_crop(residual: Residual, crop: Crop) -> str:
     width, height = crop.size_px
     picture = f'<image href="{crop.uri}" x="{crop.u:g}" y="{crop.v:g}" width="{width:g}" height="{height:g}"/>'
     missing = f'<rect class="missing" x="{crop.u:g}" y="{crop.v:g}" width="{width:g}" height="{height:g}"/>'
-    unit = width / 14.0
+    unit = width / 18.0
     return (
         f'<svg class="crop" viewBox="{crop.u:g} {crop.v:g} {width:g} {height:g}" style="--px: {unit / 12:.3f}">'
         f"{picture if crop.uri else missing}{_format_suspect(residual, unit)}</svg>"

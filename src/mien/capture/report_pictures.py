@@ -26,11 +26,13 @@ LONGEST_PX = (480, 1400)
 """Bounds of the longer side of a photograph in a page."""
 
 QUALITY = 80
+"""Of JPEG."""
 
 CROP_PX = 420
 """Longer side of the picture of a suspect at most; it is not magnified here."""
 
-LEAST_CROP_PX = 120
+LEAST_CROP_PX = 48
+"""Side of the piece of a photograph around a suspect, at least."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +124,7 @@ def _embed(photograph: Photograph, path: Path | None, suspects: Sequence[Residua
 def _frame_of(suspect: Residual, size_px: tuple[int, int]) -> tuple[float, float, tuple[float, float]]:
     """A square in the photograph with both places of a suspect, and room around them."""
     seen, (du, dv) = suspect.observation, (suspect.du, suspect.dv)
-    side = max(LEAST_CROP_PX, 2.2 * abs(du), 2.2 * abs(dv), 0.04 * max(size_px))
+    side = max(LEAST_CROP_PX, 2.2 * abs(du), 2.2 * abs(dv), min(8.0 * math.hypot(du, dv), 0.06 * max(size_px)))
     side = float(min(round(side), *size_px))
     left = min(max(seen.u - du / 2.0 - side / 2.0, 0.0), size_px[0] - side)
     top = min(max(seen.v - dv / 2.0 - side / 2.0, 0.0), size_px[1] - side)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from html import escape
 
 import numpy as np
 
-from .records import Camera, Photograph, Residual, Solution, SolvedPoint
+from .records import Camera, Residual, Solution, SolvedPoint
 from .report_numbers import Unit, fixed, significant
 from .report_photographs import format_crop
 from .report_pictures import Embedded
@@ -17,52 +18,61 @@ from .summaries import errors_by_photo, measured, sigma_m
 CROPS = 60
 """Suspects that are shown in a picture; the others are in the table."""
 
+ENDLESS = 1e6
+"""Focal lengths (px) and distances (units) from here on stand for parallel rays."""
+
 Cell = tuple[str, str]
 """HTML of a cell, and what it is sorted by."""
 
 
+def format_lenses(solution: Solution) -> str:
+    """Lenses: one row for each camera, its terms told apart by whether they were found or assumed."""
+    heads = ["camera", "photographs", "size, px", "focal length, px", "principal point, px", "k1", "k2", "p1, p2"]
+    rows = []
+    for name in dict.fromkeys(each.camera for each in solution.survey.photographs):
+        own = [each for each in solution.survey.photographs if each.camera == name]
+        camera = next((solution.cameras[each.name] for each in own if each.name in solution.cameras), None)
+        size = "{} × {}".format(*own[0].size_px)
+        row = [_text(name), _integer(len(own)), (size, str(own[0].size_px[0]))]
+        rows.append(row + (_lens_cells(camera, own[0].size_px) if camera else [("not placed", "")] + [("", "")] * 4))
+    return _format_table(heads, rows, texts=1)
+
+
 def format_photographs(solution: Solution, unit: Unit) -> str:
-    """Photographs: size, lens, distance, how many clicks, how well they fit."""
-    heads = [
-        "photograph",
-        "moment",
-        "camera",
-        "size, px",
-        "focal length, px",
-        "principal point, px",
-        "k1",
-        "k2",
-        "p1, p2",
-    ]
-    heads += [f"distance, {unit.name}", "clicks", "suspect", "RMS, px"]
+    """Photographs: how far away, how many clicks, how well they fit."""
+    heads = ["photograph", "moment", "camera", f"distance, {unit.name}", "clicks", "suspect", "RMS, px"]
     errors = errors_by_photo(solution)
-    rows = [_photograph_row(each, solution, errors.get(each.name), unit) for each in solution.survey.photographs]
+    clicks = Counter(each.photo for each in solution.survey.observations)
+    suspects = Counter(each.observation.photo for each in solution.suspects)
+    rows = []
+    for each in solution.survey.photographs:
+        name = each.name
+        distance = _distance(solution.cameras[name], solution, each.moment) if name in solution.cameras else math.nan
+        rows.append(
+            [
+                _text(name),
+                _text(each.moment),
+                _text(each.camera),
+                (_far(distance / unit.metres), str(distance)) if math.isfinite(distance) else ("not placed", ""),
+                _integer(clicks[name]),
+                (f'<b class="bad">{suspects[name]}</b>', str(suspects[name])) if suspects[name] else _integer(0),
+                (fixed(errors[name], 2), str(errors[name])) if name in errors else ("", ""),
+            ]
+        )
     return _format_table(heads, rows, texts=3)
 
 
-def _photograph_row(photograph: Photograph, solution: Solution, error: float | None, unit: Unit) -> list[Cell]:
-    name = photograph.name
-    camera = solution.cameras.get(name)
-    clicks = sum(each.photo == name for each in solution.survey.observations)
-    suspects = sum(each.observation.photo == name for each in solution.suspects)
-    size = "{} × {}".format(*photograph.size_px)
-    row = [_text(name), _text(photograph.moment), _text(photograph.camera), (size, str(photograph.size_px[0]))]
-    row += _lens_cells(camera, photograph.size_px) if camera else [("not placed", "")] + [("", "")] * 4
-    distance = _distance(camera, solution, photograph.moment) if camera else math.nan
-    row.append((significant(distance / unit.metres), str(distance)) if math.isfinite(distance) else ("", ""))
-    row.append(_integer(clicks))
-    row.append((f'<b class="bad">{suspects}</b>', str(suspects)) if suspects else _integer(0))
-    row.append((fixed(error, 2), str(error)) if error is not None else ("", ""))
-    return row
+def _far(length: float) -> str:
+    return significant(length) if length < ENDLESS else "very far"
 
 
 def _lens_cells(camera: Camera, size_px: tuple[int, int]) -> list[Cell]:
-    """Terms of a lens, told apart by whether they were found or assumed."""
     lens, (width, height) = camera.lens, size_px
     u, v = lens.principal_px
     angle = 2.0 * math.degrees(math.atan(max(width, height) / 2.0 / lens.focal_px))
+    focal = f"{fixed(lens.focal_px, 1)} <small>{angle:.0f}°</small>"
     values = {
-        "focal": (f"{fixed(lens.focal_px, 1)} <small>{angle:.0f}°</small>", lens.focal_px),
+        "focal": (focal if lens.focal_px < ENDLESS else "orthographic", lens.focal_px),
         "principal": (f"{fixed(u, 1)}, {fixed(v, 1)}", math.hypot(u - width / 2.0, v - height / 2.0)),
         "k1": (fixed(lens.k1, 4), lens.k1),
         "k2": (fixed(lens.k2, 4), lens.k2),
@@ -115,7 +125,7 @@ def format_crops(suspects: Sequence[Residual], embedded: Mapping[str, Embedded])
             continue
         figures.append(
             f"<figure>{format_crop(each, crop)}<figcaption><b>{escape(seen.point)}</b> in {escape(seen.photo)}, "
-            f"{fixed(math.hypot(each.du, each.dv), 0)} px off</figcaption></figure>"
+            f"{significant(math.hypot(each.du, each.dv), 2)} px off</figcaption></figure>"
         )
     return f'<div class="crops">{"".join(figures)}</div>\n' if figures else ""
 

@@ -25,7 +25,13 @@ SIZE = 360.0
 """Of the longer side of a view, in units of its drawing."""
 
 USUAL_ELLIPSOID = 9.0
-"""Semi-axis of the usual ellipsoid when magnified, at most, in units of the drawing."""
+"""Semi-axis of the usual ellipsoid when magnified, at most, in units of the drawing; smaller where there are many."""
+
+MANY = 100
+"""Points from which on they are drawn smaller."""
+
+FARTHEST = 300.0
+"""Cameras farther away than so many times what the points reach are as good as endlessly far, and are not drawn."""
 
 BAR = 0.32
 """Share of the width that a scale bar takes at most."""
@@ -88,7 +94,12 @@ def magnification(points: Sequence[SolvedPoint], scale: float) -> float:
     """How much larger than they are ellipsoids are drawn where a metre is so many units; 1, 2, 5, 10 …"""
     axes = [math.sqrt(max(float(np.trace(point.covariance)), 0.0) / 3.0 * CHI2_95) for point in points]
     usual = float(np.median(axes)) if axes else 0.0
-    return max(round_down(USUAL_ELLIPSOID / (usual * scale)), 1.0) if usual > 0.0 else 1.0
+    room = USUAL_ELLIPSOID * _smaller(len(points))
+    return max(round_down(room / (usual * scale)), 1.0) if usual > 0.0 else 1.0
+
+
+def _smaller(number: int) -> float:
+    return min(1.0, math.sqrt(MANY / max(number, 1)))
 
 
 def format_views(
@@ -120,7 +131,7 @@ def _format_view(
     drawn = at * np.array([scale, -scale, 1.0]) + np.array([SIZE / 2.0, SIZE / 2.0, 0.0])
     order = np.argsort(at[:, 2], kind="stable")
     lines = "".join(f"M{drawn[a, 0]:.1f} {drawn[a, 1]:.1f}L{drawn[b, 0]:.1f} {drawn[b, 1]:.1f}" for a, b in edges)
-    marks = "".join(_format_mark(view, points[k], drawn[k], scale * times) for k in order)
+    marks = "".join(_format_mark(view, points[k], drawn[k], scale * times, 1.4 * _smaller(len(points))) for k in order)
     known = ""
     if references:
         corners = view.places(np.array([point.place for point in references])) * [scale, -scale, 1.0] + SIZE / 2.0
@@ -136,14 +147,14 @@ def _format_view(
     )
 
 
-def _format_mark(view: Standpoint, point: SolvedPoint, at: Points, scale: float) -> str:
+def _format_mark(view: Standpoint, point: SolvedPoint, at: Points, scale: float, dot: float) -> str:
     large, small, turn = view.ellipse(point.covariance)
     kind = escape(point.kind, quote=True)
     return (
         f'<g class="{kind}"><title>{escape(point.name)}</title>'
         f'<ellipse cx="{at[0]:.1f}" cy="{at[1]:.1f}" rx="{large * scale:.2f}" ry="{small * scale:.2f}" '
         f'transform="rotate({turn:.1f} {at[0]:.1f} {at[1]:.1f})"/>'
-        f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="1.4"/></g>'
+        f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{dot:.2f}"/></g>'
     )
 
 
@@ -158,11 +169,13 @@ def _format_bar(scale: float, width: float, height: float, unit: Unit) -> str:
 
 
 def format_plan(named: Mapping[str, Camera], center: Standpoint, points: Sequence[SolvedPoint], unit: Unit) -> str:
-    """Cameras by name of their photograph from above: where they stand, what they see, how far away."""
+    """Cameras by name of their photograph from above: where they stand, what they see; empty if endlessly far."""
     view = center.above()
     cameras = list(_distinct(named))
     subject = view.places(np.array([point.place for point in points]))[:, :2]
-    stands = view.places(np.array([camera.place for _, camera in cameras]))[:, :2]
+    stands = view.places(np.array([camera.place for _, camera in cameras]).reshape(-1, 3))[:, :2]
+    if len(stands) and np.abs(stands).max() > FARTHEST * np.abs(subject).max():
+        return ""
     everything = np.vstack([subject, stands, np.zeros((1, 2))])
     low, high = everything.min(axis=0), everything.max(axis=0)
     width, margin = 720.0, 70.0

@@ -51,8 +51,9 @@ def _chi2_words(chi2: float) -> str:
         return "There is nothing left over to tell by whether the sigmas of the clicks are right."
     if chi2 > high:
         return (
-            f"{told}they fit {significant(math.sqrt(chi2), 2)} times worse than their sigmas say, so that points are "
-            "less exact than told here. Look at the largest arrows, at the references, at the lens terms assumed."
+            f"{told}they fit {significant(math.sqrt(chi2), 2)} times worse than their sigmas say. A remark tells where "
+            "that is counted in how exact points are. Look at the largest arrows, at the references, at lens terms "
+            "that are assumed."
         )
     if chi2 < low:
         return f"{told}they fit better than their sigmas say, so that points may be more exact than told here."

@@ -151,7 +151,7 @@ def test_decimals_show_two_digits_of_sigma():
 def test_scatter_beyond_the_sigmas_is_told_with_what_to_do(tmp_path):
     text, _ = write(replace(make_solution(), chi2_per_dof=9.0), tmp_path)
     assert "3.0 times worse than their sigmas say" in text
-    assert "Look at the largest arrows" in text
+    assert "Look at the largest arrows, at the references" in text
 
 
 def test_without_references_the_points_themselves_are_the_measure():
