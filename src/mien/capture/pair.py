@@ -22,6 +22,7 @@ from .pair_refining import DISTANCE_M, Fit, Known, apart, refine
 from .pair_results import mirrored, points_of, remarks_of, residuals_of, words_of_suspects
 from .pair_start import SIDES, place_roughly
 from .pair_views import FLAT, NEARNESS, SCALE, View
+from .project_records import DISTANCE_SIGMA_M
 from .records import WORLD, Solution, Survey
 
 FEWEST, FEWEST_PERSPECTIVE = 3, 6
@@ -29,7 +30,6 @@ FEWEST, FEWEST_PERSPECTIVE = 3, 6
 
 SHORTEST = 0.08
 """Of the extent of the face: the length that it is scaled by."""
-TAPE_SIGMA_M = 0.02
 FAULTY = 18.0
 """χ² of one degree of freedom beyond which a click is taken for a mistake: one of 45 000 right ones."""
 MOST_FAULTY = 0.1
@@ -159,7 +159,7 @@ def _tape(told: Mapping[str, float | tuple[float, float]], front: str, side: str
     for name, distance in told.items():
         if name not in (front, side):
             raise UnknownNameError("photograph of a camera distance", name, (front, side))
-        metres, sigma = distance if isinstance(distance, tuple) else (distance, TAPE_SIGMA_M)
+        metres, sigma = distance if isinstance(distance, tuple) else (distance, DISTANCE_SIGMA_M)
         what = f"the camera distance of {name!r}"
         tape[FRONT if name == front else SIDE] = _positive(metres, what), _positive(sigma, f"the deviation of {what}")
     return tape

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from mien.core.mesh import Points
+
 from .pair_clicks import SIDE, Bools, Clicks, twin_name
 from .pair_refining import FLIP, TWINS_M, Fit, Known, deviation, side_turn
 from .pair_views import NEARNESS, YAW
@@ -20,6 +22,9 @@ UNTOLD = 0.7
 """Share of the assumed deviation of the side's turn that is left when the data do not tell it."""
 STRAINED = 2.0
 """Clicks miss by so many times their variance."""
+
+STEPS = 8
+"""Of a place between two rays; three would do."""
 
 Solved = dict[tuple[str, str], SolvedPoint]
 
@@ -72,21 +77,34 @@ def residuals_of(
 def _left_out(
     each: Observation, view: int, clicks: Clicks, number: int, fit: Fit, points: Solved, survey: Survey
 ) -> Residual:
-    """How far a click is off from where its point was found without it; NaN where it was found no more."""
+    """How far a click is off from where its point is without it; where both were left out, from half way between."""
     point = points.get((survey.photograph(each.photo).moment, each.point))
     if point is None:
-        return Residual(each, math.nan, math.nan, math.inf)
-    off = clicks.seen[view, number] - fit.views[view].seen(point.place[None])[0]
-    slope = fit.views[view].slopes(point.place[None])[0]
-    variance = slope @ point.covariance @ slope.T + clicks.sigma[view, number] ** 2 * np.eye(2)
+        place, covariance = _half_way(clicks, number, fit), np.zeros((3, 3))
+    else:
+        place, covariance = point.place, point.covariance
+    off = clicks.seen[view, number] - fit.views[view].seen(place[None])[0]
+    slope = fit.views[view].slopes(place[None])[0]
+    variance = slope @ covariance @ slope.T + clicks.sigma[view, number] ** 2 * np.eye(2)
     return Residual(each, float(off[0]), float(off[1]), float(off @ np.linalg.solve(variance, off)))
+
+
+def _half_way(clicks: Clicks, number: int, fit: Fit) -> Points:
+    """(3,) m, the place that both clicks of a point miss least (Gauss-Newton)."""
+    place = np.zeros(3)
+    for _ in range(STEPS):
+        off, slopes = [], []
+        for view, seen, sigma in zip(fit.views, clicks.seen[:, number], clicks.sigma[:, number], strict=True):
+            off.append((seen - view.seen(place[None])[0]) / sigma)
+            slopes.append(view.slopes(place[None])[0] / sigma)
+        place = place + np.linalg.lstsq(np.concatenate(slopes), np.concatenate(off), rcond=None)[0]
+    return place
 
 
 def remarks_of(clicks: Clicks, known: Known, fit: Fit, photographs: tuple[str, str]) -> list[str]:
     """What was found of the cameras, what was assumed, and what to do better."""
-    remarks = [
-        f"{photographs[SIDE]!r} shows the face's own {'left' if fit.views[SIDE].base[2, 0] < 0 else 'right'} side"
-    ]
+    shown = "left" if fit.views[SIDE].base[2, 0] < 0 else "right"
+    remarks = [f"the side photograph {photographs[SIDE]!r} shows the face's own {shown} side"]
     if (count := int(clicks.double.sum())) < ENOUGH:
         remarks.append(f"only {count} points are seen in both photographs: {ENOUGH} or more make the cameras surer")
     if known.orthographic:
@@ -130,17 +148,14 @@ def _words_of_turn(known: Known, fit: Fit, name: str) -> str:
             f"{60.0 * math.tan(sigma):.0f} mm forwards or back — one lens for both photographs, or measured camera "
             "distances, tell more"
         )
-    return f"{name!r} is turned {abs(turn):.1f} ± {math.degrees(sigma):.1f}° from exact profile"
+    return f"the camera of {name!r} is turned {abs(turn):.1f} ± {math.degrees(sigma):.1f}° from exact profile"
 
 
 def words_of_suspects(suspects: list[Residual]) -> list[str]:
-    """Which clicks were left out."""
+    """Points of which both clicks were left out."""
+    names = [each.observation.point for each in suspects]
     return [
-        f"{each.observation.point!r} in {each.observation.photo!r} was left out: "
-        + (
-            "its heights in the two photographs do not agree"
-            if math.isnan(each.du)
-            else f"it is off by {math.hypot(each.du, each.dv):.0f} px"
-        )
-        for each in suspects
+        f"the heights of {name!r} in the two photographs do not agree: one of its clicks is wrong, either may be"
+        for name in sorted(set(names))
+        if names.count(name) > 1
     ]

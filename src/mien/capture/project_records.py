@@ -70,7 +70,7 @@ class Pair:
 
     Attributes:
         front, side: names of the photographs.
-        scale: two points and how far they are apart, m; without it the size is arbitrary.
+        scale: two points and how far they are apart, m; without it, two references.
         camera_distance_m: by photograph, where it was measured: from the lens to the nearest point, and its standard
             deviation.
         orthographic: as if the cameras stood infinitely far away.
