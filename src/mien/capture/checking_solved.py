@@ -68,9 +68,8 @@ def _angle_deg(point: SolvedPoint, cameras: Mapping[str, Camera]) -> float | Non
     if len(towards) < 2:
         return None
     units = np.array(towards) / np.linalg.norm(towards, axis=1, keepdims=True)
-    return max(
-        math.degrees(math.atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b))) for a, b in combinations(units, 2)
-    )
+    chord = float(np.linalg.norm(units[:, None] - units[None], axis=2).max())
+    return math.degrees(2.0 * math.asin(min(0.5 * chord, 1.0)))
 
 
 def _weakness(point: SolvedPoint) -> float:

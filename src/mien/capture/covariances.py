@@ -18,13 +18,15 @@ class Covariances:
     Attributes:
         cameras: (C, C) of lenses, stations and bodies.
         points: (F, 3, 3) m² of free points, with what is uncertain of cameras.
-        carried: (F, 3, C) how a point follows the columns.
+        carried: (F, 3, C) how a point follows the columns, with the sign turned.
+        shared: (F, 3, C) m × columns, covariances of points with columns, with the sign turned.
         alone: (F, 3, 3) m² of free points if cameras were exact.
     """
 
     cameras: Points
     points: Points
     carried: Points
+    shared: Points
     alone: Points
 
 
@@ -57,8 +59,8 @@ def covariances(equations: Equations) -> Covariances:
             " — click more references in each photograph, spread over the cube, and points that several of them share"
         ) from None
     cameras = inverse * np.outer(scale, scale)
-    spread = np.einsum("fic,fjc->fij", carried @ cameras, carried)
-    return Covariances(cameras, alone + spread, carried, alone)
+    shared = (carried.reshape(-1, width) @ cameras).reshape(carried.shape)
+    return Covariances(cameras, alone + shared @ carried.transpose(0, 2, 1), carried, shared, alone)
 
 
 def seen_covariances(refined: Refined, found: Covariances) -> Points:
@@ -72,13 +74,12 @@ def seen_covariances(refined: Refined, found: Covariances) -> Points:
     for group in layout.groups:
         columns = group_columns(refined.problem, layout, group)
         kept = columns >= 0
-        count = group.stop - group.start
-        rows = np.zeros((count, 2, layout.columns))
-        rows[:, :, columns[kept]] = equations.by_columns[group][:, :, kept]
-        here, by_point = numbers[group], equations.by_point[group]
-        inside = here >= 0
-        rows[inside] -= by_point[inside] @ found.carried[here[inside]]
-        block = (rows.reshape(2 * count, -1) @ found.cameras).reshape(count, 2, -1) @ rows.transpose(0, 2, 1)
-        block[inside] += by_point[inside] @ found.alone[here[inside]] @ by_point[inside].transpose(0, 2, 1)
+        by_columns, by_point, here = equations.by_columns[group][:, :, kept], equations.by_point[group], numbers[group]
+        block = by_columns @ found.cameras[np.ix_(columns[kept], columns[kept])] @ by_columns.transpose(0, 2, 1)
+        inside = np.nonzero(here >= 0)[0]
+        by_point, points = by_point[inside], here[inside]
+        both = by_point @ found.shared[points][:, :, columns[kept]] @ by_columns[inside].transpose(0, 2, 1)
+        block[inside] += by_point @ found.points[points] @ by_point.transpose(0, 2, 1)
+        block[inside] -= both + both.transpose(0, 2, 1)
         result[group] = block
     return result

@@ -29,6 +29,8 @@ from mien.capture.starting import FEWEST_PLACED, begin
 from mien.core.errors import UnknownNameError
 from mien.core.mesh import Points
 
+ROUGHLY = 1e-5
+"""Part of χ² by which a solution may still fall when mis-clicks are looked for."""
 METHODS = ("metric", "appendix-c")
 Report = Callable[[str], None]
 
@@ -103,8 +105,11 @@ def _clean(problem: Problem, state: State, left_out: Bools, say: Report) -> _Sol
     network, left_out = problem.network, left_out.copy()
     taken_back = False
     while True:
-        active = _active(network, state, left_out)
-        refined = refine(replace(problem, active=active), state)
+        now = replace(problem, active=_active(network, state, left_out))
+        # Near enough to see the worst; the whole way when there is none.
+        refined = refine(now, state, close=ROUGHLY)
+        if not len(worst(network, refined, judge(refined))):
+            refined = refine(now, refined.state)
         state, judgement = refined.state, judge(refined)
         wrong = worst(network, refined, judgement)
         if len(wrong):
