@@ -164,7 +164,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--photographs", type=Path, help="folder with left01.jpg, right01.jpg, ...")
     parser.add_argument(
-        "--seeds", type=int, default=20, help="surveys of each set-up; coverage takes five times as many"
+        "--seeds", type=int, default=12, help="surveys of each set-up; coverage takes five times as many"
     )
     parser.add_argument("--folds", type=int, default=4, help="of the chessboards")
     parser.add_argument("--json", type=Path, help="keep the figures in a file")
