@@ -22,6 +22,8 @@ CONTRADICTED = 18.4
 """χ² of 2 degrees of freedom beyond which a click is a mis-click: one good click in 10,000."""
 LEAST_CHECKED = 0.01
 """Part of a direction of a click that others must check for it to be judged by it."""
+LEAST_SCALE = 1e-4
+"""Nobody clicks more than a hundred times as well as told: beyond are computed clicks, and errors of rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,8 @@ def _scale(statistics: Points, redundancy: float) -> float:
     scale = float(np.median(statistics)) / (2.0 * np.log(2.0))
     # The median of n exponential variables scatters by 1/(ln 2 √n) of itself.
     surely = 3.0 / (np.log(2.0) * np.sqrt(pairs))
-    return scale if scale > 0.0 and abs(np.log(scale)) > surely else 1.0
+    scale = max(scale, LEAST_SCALE)
+    return scale if abs(np.log(scale)) > surely else 1.0
 
 
 def worst(network: Network, refined: Refined, judgement: Judgement) -> Ints:

@@ -23,7 +23,7 @@ from mien.capture.networks import Bools, Network, State, connect
 from mien.capture.projecting import cross_matrices, see
 from mien.capture.records import Camera, Residual, Solution, SolvedPoint, Survey
 from mien.capture.refining import Problem, Refined, refine
-from mien.capture.snooping import CONTRADICTED, Judgement, judge, worst
+from mien.capture.snooping import CONTRADICTED, LEAST_SCALE, Judgement, judge, worst
 from mien.capture.solving_appendix_c import solve_appendix_c
 from mien.capture.starting import FEWEST_PLACED, begin
 from mien.core.errors import UnknownNameError
@@ -168,7 +168,7 @@ def _solution(solved: _Solved) -> Solution:
     active = refined.problem.active
     covariances = judgement.covariances
     chi2_per_degree = refined.equations.chi2 / judgement.redundancy if judgement.redundancy > 0.5 else 1.0
-    factor = chi2_per_degree if judgement.scale != 1.0 else 1.0
+    factor = max(chi2_per_degree, LEAST_SCALE) if judgement.scale != 1.0 else 1.0
     photos = sorted(set(network.photo_of[active].tolist()))
     cameras: dict[str, Camera] = {
         network.photo_name(photo): state.camera(

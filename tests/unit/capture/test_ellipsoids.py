@@ -60,3 +60,13 @@ def test_wrong_sigmas_are_told_by_chi2_and_ellipsoids_follow_the_scatter() -> No
     simulated = simulate(SETUP, 1)
     shy = tuple(replace(each, sigma_px=3.0) for each in simulated.survey.observations)
     assert solve(replace(simulated.survey, observations=shy)).chi2_per_dof == pytest.approx(1.0 / 9.0, rel=0.5)
+
+
+@pytest.mark.parametrize("views", [2, 4])
+def test_exact_clicks_contradict_nothing(views: int) -> None:
+    simulated = simulate(replace(SETUP, views=views, sigma_px=0.0), 1)
+    solution = solve(simulated.survey)
+    assert solution.suspects == ()
+    for key, point in solution.points.items():
+        assert point.place == pytest.approx(simulated.places[key], abs=1e-5)
+        assert point.kind == "reference" or np.trace(point.covariance) > 0.0
