@@ -39,6 +39,7 @@ TWENTY = (
       for side in "LR"),
 )  # fmt: skip
 COUNTS, NOISES_MM = (20, 68, 120, 200, 400), (0.0, 0.5, 1.0, 2.0)
+ALONE_AT_MM = 0.5
 LEAST_MM = 0.2
 """Standard deviation that exact points are said to have."""
 COUNTERPART_M = 0.001
@@ -136,6 +137,14 @@ def fitted_error(rig: Rig, number: int, names: list[str], noise_mm: float, resid
     return rig.errors(head.shape(head.neutral).points[: rig.fine.shape[1]], person)
 
 
+def _alone(rig: Rig, names: list[str], noise_mm: float, people: range) -> str:
+    """Errors without a residual, for one noise only: they hardly depend on it."""
+    if noise_mm != ALONE_AT_MM:
+        return ""
+    errors = np.mean([fitted_error(rig, number, names, noise_mm, False) for number in people], axis=0)
+    return f"{errors[0]:.2f}, {errors[1]:.2f}"
+
+
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -157,10 +166,9 @@ def main() -> None:
         names = chosen(rig, count)
         for noise in arguments.noises:
             errors = np.array([fitted_error(rig, number, names, noise, True) for number in people])
-            alone = np.array([fitted_error(rig, number, names, noise, False) for number in people])
             surface, points = errors.mean(axis=0)
             cells = f"{surface:.2f} | {errors[:, 0].max():.2f} | {points:.2f}"
-            print(f"| {len(names)} | {noise:g} | {cells} | {alone[:, 0].mean():.2f}, {alone[:, 1].mean():.2f} |")
+            print(f"| {len(names)} | {noise:g} | {cells} | {_alone(rig, names, noise, people)} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ SHARE_LEFT = 0.5
 
 EXPRESSIONS = (
     ("the mouth seems to be open by {0:.0f} degrees", {"jaw.rotation": 10.0}, 10.0, 3.0),
-    ("the face seems to smile", {"mouth.expression": 0.5}, 1.0, 0.3),
+    ("the face seems to smile", {"mouth.expression": 0.5}, 1.0, 0.6),
     ("the brows seem to be raised", {"eyebrow.inner_raise": 1.0, "eyebrow.outer_raise": 1.0}, 1.0, 0.3),
     ("the eyes seem to be shut", {"eyelid.opening": 0.0}, 1.0, 0.5),
 )

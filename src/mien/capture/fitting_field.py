@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mien.core.mesh import Points
     from mien.faces.head.measured import Floats
 
-MODEL_M = 0.0003
+MODEL_M = 0.0004
 """How far our skin lies from the one it was measured on, whose places the names tell."""
 
 STEPS, STILL = 12, 1e-9

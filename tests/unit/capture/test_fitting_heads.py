@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from breaking import eyes_shown, mouth_shown, resting_mouth_shown
 from mien.capture.fitting import FittedHead, fit_head, write_head
 from mien.capture.fitting_field import Placing, turn_by
 from mien.capture.fitting_people import population
@@ -15,6 +16,8 @@ from mien.capture.fitting_places import find_place, known_places, weights_of
 from mien.core import MienError, UnknownNameError
 from mien.faces import load_face
 from mien.faces.head.head import Head
+from mien.faces.head.measured import archive
+from soundness import Posed
 
 NAMES = [name for name in known_places() if name.startswith("ibug_")] + ["tragion_L", "tragion_R", "vertex"]
 ROWS = population().rows
@@ -53,6 +56,14 @@ def test_its_eyes_are_where_the_person_has_them(fitted):
         # The ball of the parts is bounded by a plane behind; its front is as far as its radius.
         assert abs(ball[:, 0].mean() - centre[0]) < 0.002
     assert 0.85 < fitted.residual.eye_scale < 1.15
+
+
+def test_its_lids_shut_and_its_lips_meet_though_its_sides_differ(fitted):
+    assert np.abs(fitted.residual.cage - fitted.residual.cage[archive().mirror] * [-1, 1, 1]).max() > 0.0005
+    posed = Posed(fitted.head(), fitted.head().neutral)
+    assert eyes_shown(posed) == 0
+    assert mouth_shown(posed) == 0
+    assert resting_mouth_shown(posed) <= 5
 
 
 def test_values_stay_within_their_ranges_and_some_are_away_from_rest(fitted):
