@@ -23,6 +23,7 @@ from mien.capture.networks import Bools, Network, State, connect
 from mien.capture.projecting import cross_matrices, see
 from mien.capture.records import Camera, Residual, Solution, SolvedPoint, Survey
 from mien.capture.refining import Problem, Refined, refine
+from mien.capture.screening import astray, put_back, without
 from mien.capture.snooping import CONTRADICTED, LEAST_SCALE, Judgement, judge, worst
 from mien.capture.solving_appendix_c import solve_appendix_c
 from mien.capture.starting import FEWEST_PLACED, begin
@@ -49,7 +50,11 @@ def solve(survey: Survey, *, method: str = "metric", report: Report | None = Non
     if method not in METHODS:
         raise UnknownNameError("method", method, METHODS)
     weak = check(survey)
-    solution = solve_appendix_c(survey) if method == "appendix-c" else _solve_metric(survey, report or _say_nothing)
+    if method == "appendix-c":
+        solution = solve_appendix_c(survey)
+    else:
+        wrong = astray(survey)
+        solution = put_back(_solve_metric(without(survey, wrong), report or _say_nothing), survey, wrong)
     return replace(solution, remarks=(*weak, *solution.remarks, *remarks_on(solution)))
 
 

@@ -1,0 +1,105 @@
+"""Clicks of references that are so far astray that no camera could be begun with them: exchanged names above all.
+
+Mis-clicks are found by leaving each out of a solution. Where two references of one photograph have exchanged their
+names and few photographs are there, the solution that this starts from is already that of no camera; so they are looked
+for before, photograph by photograph.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mien.core.errors import MienError
+from mien.core.mesh import Points
+
+from .homogeneous import homogeneous_matrix
+from .projecting import project
+from .records import WORLD, Observation, Residual, Solution, Survey
+
+UNKNOWNS = 11
+FEWEST = 10
+"""References in a photograph: without two of them, five equations more than unknowns are left."""
+SUSPECT_PX = 10.0
+"""Times their sigma: clicks that fit worse than this are looked into; lens distortion alone stays below."""
+CURED = 6.0
+"""Times: so much better the others must fit without a click or two, by the variance of what is left over."""
+WORST = 16
+"""Clicks of a photograph that are tried: those that fit worst."""
+AGREES = 16.0
+"""χ² of two degrees of freedom up to which a click that was left out is not called a mistake after all."""
+
+
+def astray(survey: Survey) -> tuple[Observation, ...]:
+    """Clicks of references without which, one or two in a photograph, all others of it suddenly fit a camera."""
+    places = {each.name: (each.x, each.y, each.z) for each in survey.references if each.target == WORLD}
+    found: list[Observation] = []
+    for photo in survey.photographs:
+        clicks = [each for each in survey.observations if each.photo == photo.name and each.point in places]
+        if len(clicks) >= FEWEST:
+            at = np.array([places[each.point] for each in clicks])
+            found += [clicks[number] for number in _worst(at, clicks)]
+    return tuple(found)
+
+
+def without(survey: Survey, clicks: Sequence[Observation]) -> Survey:
+    """The survey without some of its clicks."""
+    return replace(survey, observations=tuple(each for each in survey.observations if each not in clicks))
+
+
+def put_back(solution: Solution, survey: Survey, clicks: Sequence[Observation]) -> Solution:
+    """The solution of the whole survey, in which those clicks took no part; those that do not agree are suspects."""
+    residuals = {(each.observation.photo, each.observation.point): each for each in solution.residuals}
+    suspects = list(solution.suspects)
+    for each in clicks:
+        point = solution.points.get((survey.photograph(each.photo).moment, each.point))
+        camera = solution.cameras.get(each.photo)
+        if point is None or camera is None:
+            continue
+        u, v = project(camera, point.place[None])[0].tolist()
+        du, dv = each.u - u, each.v - v
+        residual = Residual(each, du, dv, (du * du + dv * dv) / each.sigma_px**2)
+        residuals[each.photo, each.point] = residual
+        if residual.statistic > AGREES:
+            suspects.append(residual)
+    ordered = [residuals[key] for each in survey.observations if (key := (each.photo, each.point)) in residuals]
+    suspects.sort(key=lambda suspect: -suspect.statistic)
+    return replace(solution, survey=survey, residuals=tuple(ordered), suspects=tuple(suspects))
+
+
+def _worst(places: Points, clicks: Sequence[Observation]) -> tuple[int, ...]:
+    """Numbers of the click or the two clicks that no camera explains together with all others; none if one does."""
+    pictures = np.array([[each.u, each.v] for each in clicks])
+    sigma = float(np.median([each.sigma_px for each in clicks]))
+    everything = np.ones(len(clicks), dtype=bool)
+    try:
+        off, scatter = _fit(places, pictures, everything)
+        if scatter < SUSPECT_PX * sigma:
+            return ()
+        candidates = np.argsort(-off)[:WORST].tolist()
+        best: tuple[int, ...] = ()
+        least = scatter / CURED
+        for leave in (1, 2):
+            for numbers in combinations(candidates, leave):
+                kept = everything.copy()
+                kept[list(numbers)] = False
+                now = _fit(places, pictures, kept)[1]
+                if now < least:
+                    best, least = numbers, now
+            if best:
+                return best
+    except MienError:  # references on a plane tell no camera of their own
+        return ()
+    return best
+
+
+def _fit(places: Points, pictures: Points, kept: NDArray[np.bool_]) -> tuple[Points, float]:
+    """How far clicks (N,) are off a camera of those kept, px, and the scatter of these, px."""
+    matrix = homogeneous_matrix(places[kept], pictures[kept])
+    x, y, z = matrix @ np.column_stack([places, np.ones(len(places))]).T
+    off = np.hypot(x / z - pictures[:, 0], y / z - pictures[:, 1])
+    return off, float(np.sqrt(np.sum(off[kept] ** 2) / (2 * kept.sum() - UNKNOWNS)))
