@@ -24,11 +24,11 @@ import scipy.sparse as sp
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 from measuring.closest import bind, refinement, topology_of, vertex_normals
-from measuring.marks import landmark_vertices, rigid
+from measuring.marks import landmark_vertices
 from measuring.reference import CM, Reference, rim_of_each
 
 from mien.capture.fitting import fit_head
-from mien.capture.fitting_field import turn_by
+from mien.capture.fitting_field import superpose, turn_by
 from mien.capture.fitting_places import known_places
 from mien.faces.head.head import Head
 from mien.faces.head.measured import archive
@@ -71,8 +71,7 @@ class Rig:
     def errors(self, cage: np.ndarray, person: np.ndarray) -> tuple[float, float]:
         """RMS mm of a head from the surface of a person (V, 3) m, and from the points that correspond."""
         skin, wanted = self.fine @ cage, person[self.face]
-        turn, shift = rigid(self.onto @ skin, wanted)
-        skin = skin @ turn.T + shift
+        skin = superpose(self.onto @ skin, wanted, scaled=False).to_world(skin)
         own, normals = self.onto @ skin, self.onto @ vertex_normals(skin, self.triangles)
         nearest = bind(own, normals, person, self.outside) @ person
         return _rms_mm(own - nearest), _rms_mm(own - wanted)

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from mien.capture.fitting_field import superpose
+from mien.capture.fitting_shape import sphere
 from mien.faces.head.measured import archive
 from mien.faces.head.neck import neck_share
 
@@ -60,34 +62,16 @@ def skins_of_people(reference: Reference) -> tuple[np.ndarray, np.ndarray, np.nd
     skins, eyes, growths = [], [], []
     for person in neutral + source.people:
         skin = source.onto_skin @ person
-        turn, shift = rigid(skin[whole], resting[whole])
-        skins.append(skin @ turn.T + shift - resting)
+        placing = superpose(skin[whole], resting[whole], scaled=False)
+        skins.append(placing.to_world(skin) - resting)
         found = [sphere(person[ball]) for ball in balls]
         growth = float(np.mean([radius / before for (_, radius), (_, before) in zip(found, own, strict=True)]))
         # Our balls lie before those of the reference; they go along, and grow with them.
         before = np.array([centre for centre, _ in own])
         centres = np.array([centre for centre, _ in found]) + growth * (ours - before)
-        eyes.append(centres @ turn.T + shift - ours)
+        eyes.append(placing.to_world(centres) - ours)
         growths.append(growth)
     return np.array(skins), np.array(eyes), np.array(growths)
-
-
-def rigid(points: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Turn (3, 3) and shift (3,) that bring points (N, 3) nearest to others.
-
-    Source: Kabsch 1976; the sign after Umeyama 1991.
-    """
-    middle, goal = points.mean(axis=0), wanted.mean(axis=0)
-    u, _, vt = np.linalg.svd((wanted - goal).T @ (points - middle))
-    turn = (u * [1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt
-    return turn, goal - turn @ middle
-
-
-def sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
-    """Centre (3,) and radius of the sphere nearest to points (N, 3)."""
-    design = np.column_stack([2.0 * points, np.ones(len(points))])
-    *centre, rest = np.linalg.lstsq(design, (points**2).sum(axis=1), rcond=None)[0]
-    return np.array(centre), float(np.sqrt(rest + np.dot(centre, centre)))
 
 
 def mirrored(moves: np.ndarray, mirror: np.ndarray) -> np.ndarray:
