@@ -35,7 +35,7 @@ def homogeneous_matrix(places: Points, pictures: Points) -> Points:
     seen = np.column_stack([pictures, np.ones(len(pictures))]) @ move_picture.T
     zero = np.zeros_like(near)
     rows = np.concatenate([np.hstack([near, zero, -seen[:, :1] * near]), np.hstack([zero, near, -seen[:, 1:2] * near])])
-    _, strengths, directions = np.linalg.svd(rows)
+    _, strengths, directions = np.linalg.svd(rows, full_matrices=False)
     if strengths[10] < 1e-9 * strengths[0]:
         raise MienError(
             "a camera from points of known places: these lie on one plane (or on a curve with the camera)"
