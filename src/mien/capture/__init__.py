@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         SolvedPoint,
         Survey,
     )
+    from .report import write_report
 
 __all__ = [
     "Board",
@@ -41,12 +42,14 @@ __all__ = [
     "read_solution",
     "read_survey",
     "solve_project",
+    "write_report",
     "write_solution",
 ]
 
 _HOMES = {
     "project": ("find_boards", "read_project", "read_solution", "read_survey", "solve_project", "write_solution"),
     "project_records": ("Board", "Pair", "Project"),
+    "report": ("write_report",),
 }
 """Module -> names that are imported from it; all others come from ``records``."""
 

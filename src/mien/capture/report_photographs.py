@@ -24,7 +24,7 @@ LETTER = 1 / 62
 LETTER_SHAPE = 0.58
 """Width of a letter, of its height."""
 
-NAMED = 60
+NAMED = 40
 """Clicks of a photograph up to which names of all are shown at first."""
 
 

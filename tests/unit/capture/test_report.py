@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mien.capture.project_records import METRES
+from mien.capture.project_records import METRES, Project
 from mien.capture.records import (
     Camera,
     Lens,
@@ -26,7 +26,7 @@ from mien.capture.records import (
     Survey,
 )
 from mien.capture.report import write_report
-from mien.capture.report_lines import edges_of, neighbours
+from mien.capture.report_lines import edges_of, neighbours, polygons_of
 from mien.capture.report_numbers import Exactness, Unit, round_down, significant
 from mien.capture.report_photographs import arrow_magnification
 from mien.capture.report_views import CHI2_95, Standpoint, standpoint
@@ -278,3 +278,45 @@ def test_solution_without_measured_points_says_so(tmp_path):
     assert Reader(text).open == []
     text, _ = write(replace(solution, points={}, cameras={}), tmp_path)
     assert Reader(text).open == []
+
+
+def test_lens_terms_that_were_assumed_are_told_apart(tmp_path):
+    text, _ = write(make_solution(), tmp_path)
+    lenses = text[text.index("<h2>Lenses") : text.index("<h2>Photographs")]
+    assert "534" not in lenses
+    assert ">500.0 <small>44°</small><" in lenses  # 400 px wide: 2 atan(200 / 500)
+    assert ">−0.1000<" in lenses
+    assert '<span class="assumed">200.0, 150.0</span>' in lenses
+    assert '<span class="assumed">0.0000</span>' in lenses
+
+
+def test_cameras_that_are_endlessly_far_are_not_drawn(tmp_path):
+    solution = make_solution()
+    near, _ = write(solution, tmp_path)
+    far = {name: replace(camera, place=camera.place * 1e4) for name, camera in solution.cameras.items()}
+    endless, _ = write(replace(solution, cameras=far), tmp_path)
+    assert near.count('<g class="camera">') == 2
+    assert '<g class="camera">' not in endless
+    assert "very far" in endless
+
+
+def test_polygons_go_by_the_names_of_the_project(tmp_path):
+    project = Project(tmp_path, "anna", ())
+    assert polygons_of(project) == []
+    (tmp_path / "topology.txt").write_text("part skin\n1 2 3 #e0ac96\n", encoding="utf-8")
+    assert polygons_of(project) == [("1", "2", "3")]
+    (tmp_path / "marks.csv").write_text(
+        "number,name,body,follows,x,y,z\n1,nose,,,,,\n2,chin,,,,,\n3,brow,,,,,\n", encoding="utf-8"
+    )
+    assert polygons_of(project) == [("nose", "chin", "brow")]
+
+
+def test_many_clicks_carry_no_names_but_those_of_suspects(tmp_path):
+    solution = make_solution()
+    seen = solution.residuals[0].observation
+    crowd = tuple(Residual(replace(seen, point=f"q{k}", u=5.0 + 2.0 * k, v=20.0), 0.1, 0.0) for k in range(180))
+    text, _ = write(replace(solution, residuals=(*solution.residuals, *crowd)), tmp_path)
+    first = text[text.index('<figure class="photograph">') : text.index("<figcaption><b>rest-1.png")]
+    assert first.count("<text") == 1
+    assert 'class="suspect" x=' in first
+    assert "<title>q7: 0.1 px</title>" in first
