@@ -20,6 +20,8 @@ from mien.core.mesh import Ints, Points
 
 CONTRADICTED = 18.4
 """χ² of 2 degrees of freedom beyond which a click is a mis-click: one good click in 10,000."""
+LEAST_PX = 0.005
+"""No click is surer than that: what is left of exact ones is rounding."""
 LEAST_CHECKED = 0.01
 """Part of a direction of a click that others must check for it to be judged by it."""
 LEAST_SCALE = 1e-4
@@ -54,7 +56,9 @@ def judge(refined: Refined) -> Judgement:
     degrees = counted.sum(axis=1)
     statistics = np.where(degrees == 1, _as_two(squares.sum(axis=1)), squares.sum(axis=1))
     redundancy = float(np.trace(checked, axis1=1, axis2=2).sum())
-    return Judgement(statistics, _scale(statistics[degrees > 0], redundancy), redundancy, found)
+    least = (LEAST_PX / float(np.median(refined.problem.network.sigmas))) ** 2
+    scale = max(_scale(statistics[degrees > 0], redundancy), least)
+    return Judgement(statistics, scale, redundancy, found)
 
 
 def _as_two(statistics: Points) -> Points:

@@ -10,6 +10,7 @@ import numpy as np
 from mien.capture.checking import check
 from mien.capture.checking_solved import remarks_on
 from mien.capture.covariances import Covariances
+from mien.capture.homogeneous import FEWEST
 from mien.capture.lenses import (
     ALL_TERMS,
     FIRST_TERMS,
@@ -20,6 +21,7 @@ from mien.capture.lenses import (
     remarks_on_lenses,
 )
 from mien.capture.networks import Bools, Network, State, connect
+from mien.capture.placing import FAR
 from mien.capture.projecting import cross_matrices, see
 from mien.capture.records import Camera, Residual, Solution, SolvedPoint, Survey
 from mien.capture.refining import Problem, Refined, refine
@@ -27,7 +29,7 @@ from mien.capture.screening import astray, put_back, without
 from mien.capture.snooping import CONTRADICTED, LEAST_SCALE, Judgement, judge, worst
 from mien.capture.solving_appendix_c import solve_appendix_c
 from mien.capture.starting import FEWEST_PLACED, begin
-from mien.core.errors import UnknownNameError
+from mien.core.errors import MienError, UnknownNameError
 from mien.core.mesh import Points
 
 ROUGHLY = 1e-5
@@ -181,6 +183,7 @@ def _solution(solved: _Solved) -> Solution:
         )
         for photo in photos
     }
+    _check_nearness(network, refined)
     residuals = _residuals(network, refined, judgement)
     out = [number for number in np.nonzero(solved.left_out)[0].tolist() if number in residuals]
     suspects = sorted((residuals[number] for number in out), key=lambda each: -each.statistic)
@@ -199,6 +202,23 @@ def _solution(solved: _Solved) -> Solution:
         chi2_per_dof=chi2_per_degree,
         remarks=tuple(remarks),
     )
+
+
+def _check_nearness(network: Network, refined: Refined) -> None:
+    """Raises where half of the clicks of a photograph are far from where the solution has them."""
+    order = refined.equations.layout.order
+    off = np.linalg.norm(refined.equations.off, axis=1) * network.sigmas[order]
+    share = off / network.sizes[network.lens_of[order]].max(axis=1)
+    photos = np.unique(network.photo_of[order])
+    far = [float(np.median(share[network.photo_of[order] == photo])) for photo in photos]
+    if max(far, default=0.0) > FAR:
+        worst_photo = int(photos[int(np.argmax(far))])
+        median_px = float(np.median(off[network.photo_of[order] == worst_photo]))
+        raise MienError(
+            f"photograph {network.photo_name(worst_photo)!r}: half of its clicks lie {median_px:.0f} px or more from"
+            " where references and the other photographs have them — look at the names of its points, at the references,"
+            " and whether its camera and moment are told rightly"
+        )
 
 
 def _residuals(network: Network, refined: Refined, judgement: Judgement) -> dict[int, Residual]:
@@ -251,9 +271,13 @@ def _remarks_on_missing(network: Network, active: Bools, left_out: Bools) -> lis
     shown = set(network.photo_of[active].tolist())
     for photo, photograph in enumerate(network.survey.photographs):
         if photo not in shown:
+            references = int((network.known[network.point_of] & (network.photo_of == photo)).sum())
             remarks.append(
                 f"photograph {photograph.name!r} was left out: it shows too few points of known place"
                 " — click six references in it, or four of a camera that other photographs tell"
+                if references < FEWEST
+                else f"photograph {photograph.name!r} was left out: its {references} references contradict one another"
+                " — look at their names and clicks"
             )
     placed = set(network.point_of[active].tolist())
     for point in sorted(set(network.point_of.tolist()) - placed):

@@ -23,6 +23,8 @@ FEWEST_PLACED = 4
 """Points of known place that a photograph of known lens needs: three leave several places."""
 GOOD = (0.004 / FAR) ** 2
 """Cost of a start that needs no better one: seen within 0.4 % of the picture."""
+HOPELESS = 0.6
+"""Cost of a pose that more than half of the clicks contradict."""
 ENOUGH = 20
 """Points of a photograph that judge a guess, about."""
 JUDGES = 6
@@ -70,7 +72,8 @@ def begin(network: Network) -> tuple[State, Ints]:
     if not poses:
         raise MienError(
             "no photograph can be placed: none shows six references (or four, of a camera whose lens other photographs"
-            " tell) — click more corners of the cube, or look whether names of references are exchanged"
+            " tell) that agree with one another — click more corners of the cube, or look whether names of references"
+            " are exchanged"
         )
     weights = {(sight.photo, sight.body): _worth(poses, sight) for sight in sights}
     while True:
@@ -164,7 +167,7 @@ def _best_pose(network: Network, state: State, sight: Sight) -> Pose | None:
     if not np.isfinite(lens[0]):
         return None
     poses = place_camera(sight.places, sight.pictures, lens, max(_size(network, sight.photo)))
-    return poses[0] if poses and poses[0].cost < 0.9 else None
+    return poses[0] if poses and poses[0].cost < HOPELESS else None
 
 
 def _worth(poses: dict[tuple[int, int], Pose], sight: Sight) -> float:
@@ -275,7 +278,7 @@ def _resect(network: Network, state: State) -> bool:
         sight = Sight(photo, 0, world[which], network.pictures[which])
         lens = state.lenses[number] if lens_known else guess_lens([sight], size_px)
         poses = place_camera(sight.places, sight.pictures, lens, max(size_px))
-        if poses and poses[0].cost < 0.5:
+        if poses and poses[0].cost < HOPELESS:
             state.lenses[number] = lens
             state.rotations[station], state.places[station] = poses[0].rotation, poses[0].place
             some = True

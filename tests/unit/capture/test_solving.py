@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mien.capture.records import Solution
-from mien.capture.simulating import Setup, Simulated, cube, simulate
+from mien.capture.simulating import Setup, Simulated, board, cube, simulate
 from mien.capture.solving import solve
-from mien.core.errors import UnknownNameError
+from mien.core.errors import MienError, UnknownNameError
 
 CUBE_M = 0.254
 MODERN = Setup(references=cube(count=20), k1=-0.15, points=30, views=2)
@@ -24,6 +24,7 @@ def test_exact_clicks_give_exact_cameras_and_points() -> None:
     simulated = simulate(replace(MODERN, sigma_px=0.0), 1)
     solution = solve(simulated.survey)
     assert rms(solution, simulated) < 1e-6
+    assert not solution.suspects
     for name, camera in solution.cameras.items():
         true = simulated.cameras[name]
         assert camera.place == pytest.approx(true.place, abs=1e-6)
@@ -52,3 +53,58 @@ def test_mis_clicks_are_named_and_take_no_part() -> None:
 def test_unknown_method() -> None:
     with pytest.raises(UnknownNameError, match="metric"):
         solve(simulate(MODERN, 0).survey, method="metrik")
+
+
+def test_a_photograph_of_few_references_is_placed_by_points_of_others() -> None:
+    simulated = simulate(replace(MODERN, views=4), 2)
+    references = {each.name for each in simulated.survey.references}
+    own = [each for each in simulated.survey.observations if each.photo == "view4.jpg" and each.point in references]
+    few = tuple(each for each in simulated.survey.observations if each not in own[2:])
+    solution = solve(replace(simulated.survey, observations=few))
+    assert solution.cameras["view4.jpg"].place == pytest.approx(simulated.cameras["view4.jpg"].place, abs=0.005)
+    assert rms(solution, simulated) < 0.001
+
+
+def test_boards_alone_tell_a_pair_of_cameras() -> None:
+    setup = Setup(references=board(), points=0, views=2, moments=6, fixed=True, one_lens=False, k1=-0.1)
+    simulated = simulate(setup, 4)
+    solution = solve(simulated.survey)
+    found, true = (
+        np.linalg.norm(cameras["m01-view1.jpg"].place - cameras["m01-view2.jpg"].place)
+        for cameras in (solution.cameras, simulated.cameras)
+    )
+    assert found == pytest.approx(true, rel=0.01)
+    assert solution.points["m01", "board 0 0"].place == pytest.approx(np.zeros(3))
+    assert len(solution.cameras) == 12
+
+
+def test_a_photograph_whose_clicks_are_anywhere_is_left_out() -> None:
+    survey = simulate(replace(MODERN, views=3), 6).survey
+    generator = np.random.default_rng(1)
+    wild = tuple(
+        replace(each, u=generator.uniform(0, 4000), v=generator.uniform(0, 3000)) if each.photo == "view3.jpg" else each
+        for each in survey.observations
+    )
+    solution = solve(replace(survey, observations=wild))
+    assert sorted(solution.cameras) == ["view1.jpg", "view2.jpg"]
+    assert any("'view3.jpg' was left out" in remark and "contradict" in remark for remark in solution.remarks)
+
+
+def test_clicks_that_are_all_anywhere_are_no_solution() -> None:
+    survey = simulate(MODERN, 6).survey
+    generator = np.random.default_rng(1)
+    wild = tuple(
+        replace(each, u=generator.uniform(0, 4000), v=generator.uniform(0, 3000)) for each in survey.observations
+    )
+    with pytest.raises(MienError, match="no photograph can be placed"):
+        solve(replace(survey, observations=wild))
+
+
+def test_sigmas_that_are_told_too_small_are_found_out() -> None:
+    simulated = simulate(replace(MODERN, views=4, sigma_px=4.0), 7)
+    bold = tuple(replace(each, sigma_px=1.0) for each in simulated.survey.observations)
+    honest, told = solve(simulated.survey), solve(replace(simulated.survey, observations=bold))
+    assert not told.suspects
+    assert any("sigmas" in remark for remark in told.remarks)
+    key = ("rest", "p001")
+    assert np.trace(told.points[key].covariance) == pytest.approx(np.trace(honest.points[key].covariance), rel=0.2)
