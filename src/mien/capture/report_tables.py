@@ -27,14 +27,24 @@ Cell = tuple[str, str]
 
 def format_lenses(solution: Solution) -> str:
     """Lenses: one row for each camera, its terms told apart by whether they were found or assumed."""
-    heads = ["camera", "photographs", "size, px", "focal length, px", "principal point, px", "k1", "k2", "p1, p2"]
+    heads = [
+        "camera",
+        "photographs",
+        "size, px",
+        "focal length, px",
+        "principal point, px",
+        "k1",
+        "k2",
+        "p1, p2",
+        "aspect",
+    ]
     rows = []
     for name in dict.fromkeys(each.camera for each in solution.survey.photographs):
         own = [each for each in solution.survey.photographs if each.camera == name]
         camera = next((solution.cameras[each.name] for each in own if each.name in solution.cameras), None)
         size = "{} × {}".format(*own[0].size_px)
         row = [_text(name), _integer(len(own)), (size, str(own[0].size_px[0]))]
-        rows.append(row + (_lens_cells(camera, own[0].size_px) if camera else [("not placed", "")] + [("", "")] * 4))
+        rows.append(row + (_lens_cells(camera, own[0].size_px) if camera else [("not placed", "")] + [("", "")] * 5))
     return _format_table(heads, rows, texts=1)
 
 
@@ -77,6 +87,7 @@ def _lens_cells(camera: Camera, size_px: tuple[int, int]) -> list[Cell]:
         "k1": (fixed(lens.k1, 4), lens.k1),
         "k2": (fixed(lens.k2, 4), lens.k2),
         "decentring": (f"{fixed(lens.p1, 4)}, {fixed(lens.p2, 4)}", math.hypot(lens.p1, lens.p2)),
+        "aspect": (fixed(lens.aspect, 4), lens.aspect),
     }
     return [
         (told if term in lens.freed else f'<span class="assumed">{told}</span>', str(value))

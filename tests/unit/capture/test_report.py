@@ -288,6 +288,8 @@ def test_lens_terms_that_were_assumed_are_told_apart(tmp_path):
     assert ">−0.1000<" in lenses
     assert '<span class="assumed">200.0, 150.0</span>' in lenses
     assert '<span class="assumed">0.0000</span>' in lenses
+    assert '<span class="assumed">1.0000</span>' in lenses
+    assert lenses.count("<th ") == lenses.count("<td") == 9
 
 
 def test_cameras_that_are_endlessly_far_are_not_drawn(tmp_path):
