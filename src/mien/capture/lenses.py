@@ -11,6 +11,7 @@ import numpy as np
 from mien.capture.networks import Bools, Network
 from mien.capture.projecting import LENS_TERMS
 from mien.capture.refining import Refined
+from mien.capture.snooping import Judgement
 from mien.core.mesh import Points
 
 PRINCIPAL_SIGMA = 0.05
@@ -44,34 +45,38 @@ def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
     return means, sigmas
 
 
-def left_of_assumptions(refined: Refined, cameras: Points) -> Points:
-    """(L, 8) parts of the assumed variances that are left in the solution; 1 of terms that are held."""
+def left_of_assumptions(refined: Refined, judgement: Judgement) -> Points:
+    """(L, 8) parts of the assumed variances that are left in the solution; 1 of terms that are held.
+
+    Clicks that scatter less than told tell more of a lens than the equations have it.
+    """
     columns = refined.equations.layout.lenses
     left = np.ones(columns.shape)
     free = columns >= 0
-    left[free] = np.diag(cameras)[columns[free]] / refined.problem.lens_sigmas[free] ** 2
-    return left
+    left[free] = np.diag(judgement.covariances.cameras)[columns[free]] / refined.problem.lens_sigmas[free] ** 2
+    return 1.0 / (1.0 + np.maximum(1.0 / left - 1.0, 0.0) / judgement.scale)
 
 
-def evident_terms(refined: Refined, cameras: Points, scale: float) -> Bools:
+def evident_terms(refined: Refined, judgement: Judgement) -> Bools:
     """(L, 8) terms but k2, decentring and aspect where these are not told by the data, or may be 0."""
     columns, lenses = refined.equations.layout.lenses, refined.state.lenses
-    told = left_of_assumptions(refined, cameras) < TOLD
+    covariances = judgement.covariances.cameras * judgement.scale
+    told = left_of_assumptions(refined, judgement) < TOLD
     evident = np.ones(columns.shape, dtype=bool)
     for number, columns_of_lens in enumerate(columns):
         for terms in ([4], [5, 6], [7]):
             here = columns_of_lens[terms]
             if (here < 0).any():
                 continue
-            values, covariance = lenses[number, terms], cameras[np.ix_(here, here)] * scale
+            values, covariance = lenses[number, terms], covariances[np.ix_(here, here)]
             chi2 = float(values @ np.linalg.solve(covariance, values))
             evident[number, terms] = bool(told[number, terms].all()) and chi2 > EVIDENT * len(terms)
     return evident
 
 
-def borne_terms(refined: Refined, cameras: Points) -> Bools:
+def borne_terms(refined: Refined, judgement: Judgement) -> Bools:
     """(L, 8) terms among those let go that the data tell; the focal length always stays let go."""
-    told = left_of_assumptions(refined, cameras) < TOLD
+    told = left_of_assumptions(refined, judgement) < TOLD
     for one, other in ((1, 2), (5, 6)):
         told[:, one] = told[:, other] = told[:, one] & told[:, other]
     told[:, 0] = True
@@ -84,11 +89,11 @@ def freed_names(terms: Bools) -> tuple[str, ...]:
     return tuple(name for name, number in first_terms.items() if terms[number])
 
 
-def remarks_on_lenses(network: Network, refined: Refined, cameras: Points) -> list[str]:
+def remarks_on_lenses(network: Network, refined: Refined, judgement: Judgement) -> list[str]:
     """What was assumed about lenses, a sentence each."""
     remarks = []
     assumed = {"principal": "its principal point for the middle", "k1": "its bend (k1) for none", "k2": "k2 for 0"}
-    left = left_of_assumptions(refined, cameras)
+    left = left_of_assumptions(refined, judgement)
     for number in np.unique(network.lens_of[refined.problem.active]):
         terms = refined.problem.free_terms[number]
         held = [text for name, text in assumed.items() if name not in freed_names(terms)]

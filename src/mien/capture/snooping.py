@@ -24,8 +24,8 @@ LEAST_PX = 0.005
 """No click is surer than that: what is left of exact ones is rounding."""
 LEAST_CHECKED = 0.01
 """Part of a direction of a click that others must check for it to be judged by it."""
-LEAST_SCALE = 1e-4
-"""Nobody clicks more than a hundred times as well as told: beyond are computed clicks, and errors of rounding."""
+LEAST_SCALE = 0.01
+"""Nobody clicks more than ten times as well as told: what computed clicks are off comes of rounding and assumptions."""
 
 
 @dataclass(frozen=True, eq=False)

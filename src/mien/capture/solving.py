@@ -151,11 +151,11 @@ def _choose_terms(solved: _Solved, say: Report) -> _Solved:
     """A solution in which lens terms that the data do not tell are held at what is assumed."""
     problem = solved.refined.problem
     terms = problem.free_terms.copy()
-    terms &= evident_terms(solved.refined, solved.judgement.covariances.cameras, solved.judgement.scale)
+    terms &= evident_terms(solved.refined, solved.judgement)
     if (terms != problem.free_terms).any():
         problem, state = _hold(problem, solved.refined.state, terms)
         solved = _clean(problem, state, solved.left_out, say)
-    terms = borne_terms(solved.refined, solved.judgement.covariances.cameras)
+    terms = borne_terms(solved.refined, solved.judgement)
     if (terms != solved.refined.problem.free_terms).any():
         problem, state = _hold(solved.refined.problem, solved.refined.state, terms)
         solved = _clean(problem, state, solved.left_out, say)
@@ -188,7 +188,7 @@ def _solution(solved: _Solved) -> Solution:
     out = [number for number in np.nonzero(solved.left_out)[0].tolist() if number in residuals]
     suspects = sorted((residuals[number] for number in out), key=lambda each: -each.statistic)
     remarks = [*_remarks_on_missing(network, active, solved.left_out)]
-    remarks += remarks_on_lenses(network, refined, covariances.cameras)
+    remarks += remarks_on_lenses(network, refined, judgement)
     if factor != 1.0:
         remarks.append(
             f"clicks scatter {np.sqrt(factor):.2g} times as far as their sigmas say: covariances count with that"
