@@ -32,6 +32,10 @@ from mien.capture.starting import FEWEST_PLACED, begin
 from mien.core.errors import MienError, UnknownNameError
 from mien.core.mesh import Points
 
+ENOUGH_TO_COMPARE = 12
+"""Clicks of references, and of measured points, from which it is seen which of them fit worse."""
+WORSE = 3.0
+"""How much larger χ² of references must be for them to be doubted."""
 ROUGHLY = 1e-5
 """Part of χ² by which a solution may still fall when mis-clicks are looked for."""
 METHODS = ("metric", "appendix-c")
@@ -193,6 +197,7 @@ def _solution(solved: _Solved) -> Solution:
         remarks.append(
             f"clicks scatter {np.sqrt(factor):.2g} times as far as their sigmas say: covariances count with that"
         )
+    remarks += _remarks_on_references(network, refined, judgement, suspects)
     return Solution(
         survey=network.survey,
         cameras=cameras,
@@ -216,7 +221,7 @@ def _check_nearness(network: Network, refined: Refined) -> None:
         median_px = float(np.median(off[network.photo_of[order] == worst_photo]))
         raise MienError(
             f"photograph {network.photo_name(worst_photo)!r}: half of its clicks lie {median_px:.0f} px or more from"
-            " where references and the other photographs have them — look at the names of its points, at the references,"
+            " where references and the other photographs have them — look at the names of its points, at the references"
             " and whether its camera and moment are told rightly"
         )
 
@@ -263,6 +268,26 @@ def _points(
             name, moment, world[number].copy(), (covariance + covariance.T) / 2.0, tuple(photos), kind
         )
     return points
+
+
+def _remarks_on_references(
+    network: Network, refined: Refined, judgement: Judgement, suspects: list[Residual]
+) -> list[str]:
+    """Whether references fit worse than what is measured does: then they are not where they are said to be."""
+    order = refined.equations.layout.order
+    known = network.known[network.point_of[order]]
+    if min(known.sum(), (~known).sum()) < ENOUGH_TO_COMPARE:
+        return []
+    names = {each.name for each in network.survey.references}
+    doubted = sum(each.observation.point in names for each in suspects)
+    median = [float(np.median(judgement.statistics[which])) for which in (known, ~known)]
+    if median[0] < WORSE * median[1] and doubted < known.sum() / 5.0:
+        return []
+    return [
+        f"references are seen {np.sqrt(median[0] / median[1]):.1f} times as far off as measured points, and {doubted}"
+        " clicks of them are suspects: they are not quite where they are said to be — measure them again, or tell"
+        " their sigma (0.5 mm for beads on strings), for cameras to count with that"
+    ]
 
 
 def _remarks_on_missing(network: Network, active: Bools, left_out: Bools) -> list[str]:

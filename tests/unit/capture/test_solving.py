@@ -108,3 +108,10 @@ def test_sigmas_that_are_told_too_small_are_found_out() -> None:
     assert any("sigmas" in remark for remark in told.remarks)
     key = ("rest", "p001")
     assert np.trace(told.points[key].covariance) == pytest.approx(np.trace(honest.points[key].covariance), rel=0.2)
+
+
+def test_references_that_are_not_where_they_are_said_to_be() -> None:
+    survey = simulate(replace(MODERN, views=4, reference_sigma_m=0.0005), 8).survey
+    exact = replace(survey, references=tuple(replace(each, sigma_m=0.0) for each in survey.references))
+    assert any("tell their sigma" in remark for remark in solve(exact).remarks)
+    assert not any("tell their sigma" in remark for remark in solve(survey).remarks)
