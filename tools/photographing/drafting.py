@@ -32,6 +32,8 @@ WORDS = {
 """What the topology file says of each part."""
 
 
+TOUCHES = {f"e0_{upper}": (("blink", f"e0_{12 - upper}"),) for upper in range(1, 6)}
+"""Margins of the upper lid lie on those of the lower one while the eye is shut."""
 BLEND = ("skin", "collar", "hair")
 """Parts whose colours flow into one another."""
 
@@ -79,6 +81,7 @@ def drafted(half: Half, palette: str, seen: Collection[str]) -> Draft:
         tuple(piece.body for piece in pieces),
         tuple(tuple(name for name in piece.follows if name in at) for piece in pieces),
         half.places(_shipped())[kept],
+        tuple(TOUCHES.get(name, ()) for name in names),
     )
     return Draft(KeyposeTopology(skin, midline), marks, kept)
 

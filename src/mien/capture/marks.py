@@ -13,7 +13,7 @@ from mien.core.mesh import Points
 from mien.faces.keypose.records import UNITS_M
 
 MARKS = "marks.csv"
-COLUMNS = ("number", "name", "body", "follows", "x", "y", "z")
+COLUMNS = ("number", "name", "body", "follows", "touches", "x", "y", "z")
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +25,15 @@ class Marks:
         bodies: (N,) what keeps its shape and the point belongs to, such as ``eye``; empty for what bends.
         follows: (N,) names of points that it goes along with as long as too little of its own part is seen.
         model: (N, 3) m, where it lies on another head; None if there is none.
+        touches: (N,) moments and the points that it lies on then, unless it is seen: ``blink`` and a point of the
+            other lid.
     """
 
     names: tuple[str, ...]
     bodies: tuple[str, ...]
     follows: tuple[tuple[str, ...], ...]
     model: Points | None = None
+    touches: tuple[tuple[tuple[str, str], ...], ...] = ()
 
 
 def plain_marks(count: int) -> Marks:
@@ -62,15 +65,17 @@ def read_marks(path: Path, count: int, unit: str) -> Marks:
     for line, row in ordered:
         if names.count(row["name"]) > 1:
             raise LoadError(path, f"name {row['name']!r} is there twice", line=line)
-        for name in row["follows"].split():
-            if name not in names:
-                raise LoadError(path, f"follows {name!r}, which is no point", line=line)
+        for verb, named in (("follows", row["follows"].split()), ("touches", [name for _, name in _touched(row)])):
+            for name in named:
+                if name not in names:
+                    raise LoadError(path, f"{verb} {name!r}, which is no point", line=line)
     model = np.array([_place(path, line, row, UNITS_M[unit]) for line, row in ordered])
     return Marks(
         names,
         tuple(row["body"] for _, row in ordered),
         tuple(tuple(row["follows"].split()) for _, row in ordered),
         model if np.isfinite(model).all() else None,
+        tuple(_touched(row) for _, row in ordered),
     )
 
 
@@ -79,9 +84,16 @@ def format_marks(marks: Marks, unit: str) -> str:
     lines = [",".join(COLUMNS)]
     for number, name in enumerate(marks.names):
         place = ("", "", "") if marks.model is None else (f"{x / UNITS_M[unit]:.3f}" for x in marks.model[number])
-        row = (str(number + 1), name, marks.bodies[number], " ".join(marks.follows[number]), *place)
+        touched = " ".join(f"{moment}:{other}" for moment, other in marks.touches[number]) if marks.touches else ""
+        row = (str(number + 1), name, marks.bodies[number], " ".join(marks.follows[number]), touched, *place)
         lines.append(",".join(row))
     return "\n".join([*lines, ""])
+
+
+def _touched(row: dict[str, str]) -> tuple[tuple[str, str], ...]:
+    """Moments and points, of words such as ``blink:e0_9``."""
+    split = (word.partition(":") for word in row["touches"].split())
+    return tuple((moment, name) for moment, _, name in split)
 
 
 def _put(path: Path, rows: dict[int, tuple[int, dict[str, str]]], row: dict[str, str], count: int, line: int) -> None:

@@ -82,7 +82,8 @@ def measure_phases(
     measured = np.stack([motions[moment].apply(solved[moment][0]) for moment in moments])
     sigma = np.stack([solved[moment][1] for moment in moments])
     seen = found(measured)
-    places = _completed(measured, np.where(seen, sigma, np.nan), topology, marks)
+    _lay_on(measured, sigma, moments, marks)
+    places = _completed(measured, sigma, topology, marks)
     settle_bodies(places, seen, marks)
     places[:, midline, 0] = 0.0
     return MeasuredPhases(moments, places, seen, motions, _remarks(moments, seen, marks))
@@ -125,6 +126,18 @@ def _frame(rest: Points, marks: Marks, midline: Ints) -> Motion:
     up /= np.linalg.norm(up)
     turn = np.stack([normal, up, np.cross(normal, up)])
     return Motion(turn, -turn @ centre + np.array([0.0, *centre[1:]])).after(frame)
+
+
+def _lay_on(measured: Points, sigma: Floats, moments: Sequence[str], marks: Marks) -> None:
+    """Put points that were not found on those that they touch, where these were: the margin of a shut lid."""
+    number = {name: k for k, name in enumerate(marks.names)}
+    there = found(measured)
+    for point, rows in enumerate(marks.touches):
+        for moment, name in rows:
+            if moment in moments:
+                phase, other = moments.index(moment), number[name]
+                if there[phase, other] and not there[phase, point]:
+                    measured[phase, point], sigma[phase, point] = measured[phase, other], sigma[phase, other]
 
 
 def _completed(measured: Points, sigma: Floats, topology: KeyposeTopology, marks: Marks) -> Points:

@@ -91,6 +91,17 @@ def test_a_still_point_that_is_none_is_named():
         measure_phases(solution({"rest": GRID}, {}), patch(), plain_marks(25), still=("nasion",))
 
 
+def test_what_is_shut_lies_on_what_it_touches():
+    touches = ((),) * 12 + ((("blink", "8"),),) + ((),) * 12
+    marks = Marks(plain_marks(25).names, ("",) * 25, ((),) * 25, GRID, touches)
+    shut = {"rest": GRID, "blink": GRID}
+    found = measure_phases(solution(shut, {"blink": (12,)}), patch(), marks)
+    np.testing.assert_allclose(found.places[1, 12], GRID[7], atol=1e-4)
+    assert not found.measured[1, 12]
+    seen = measure_phases(solution(shut, {}), patch(), marks)
+    np.testing.assert_allclose(seen.places[1, 12], GRID[12], atol=1e-4)
+
+
 BALL = np.random.default_rng(5).normal(size=(12, 3))
 BALL = 0.012 * BALL / np.linalg.norm(BALL, axis=1, keepdims=True)
 
