@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mien.capture.projecting import rays
 from mien.capture.records import Camera, Lens
 from mien.core.errors import MienError
 from mien.core.mesh import Points
@@ -89,17 +88,11 @@ def _upper_times_rotation(matrix: Points) -> tuple[Points, Points]:
     return upper * signs, signs[:, None] * rotation
 
 
-def triangulate(cameras: list[Camera], pictures: Points) -> Points | None:
-    """(3,) m nearest to the rays of (n, 2) px of one point in n cameras; None where it is not before all of them.
+def nearest_to_rays(origins: Points, directions: Points) -> Points | None:
+    """(3,) m nearest to n rays from origins (n, 3) m along directions (n, 3) of length 1; None where behind one.
 
     Squares of distances from the rays are weighed by the inverse square of how far the point is, as clicks count.
     """
-    directions = np.array([rays(camera, picture[None])[0] for camera, picture in zip(cameras, pictures, strict=True)])
-    return nearest_to_rays(np.array([camera.place for camera in cameras]), directions)
-
-
-def nearest_to_rays(origins: Points, directions: Points) -> Points | None:
-    """(3,) m nearest to n rays from origins (n, 3) m along directions (n, 3) of length 1; None where behind one."""
     across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
     weights = np.ones(len(origins))
     place = origins.mean(axis=0)

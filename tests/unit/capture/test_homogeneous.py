@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mien.capture.homogeneous import homogeneous_matrix, metric_camera, nearest_to_rays, triangulate
+from mien.capture.homogeneous import homogeneous_matrix, metric_camera, nearest_to_rays
 from mien.capture.placing import place_camera, spread_triples, three_point_poses
-from mien.capture.projecting import lens_array, project, turn
+from mien.capture.projecting import lens_array, project, rays, turn
 from mien.capture.records import Camera, Lens
 from mien.core.errors import MienError
 
@@ -48,9 +48,9 @@ def test_too_few_and_flat() -> None:
 
 def test_rays_meet() -> None:
     place = np.array([0.05, -0.1, 0.02])
-    seen = np.array([project(camera, place[None])[0] for camera in (CAMERA, OTHER)])
-    assert triangulate([CAMERA, OTHER], seen) == pytest.approx(place, abs=1e-9)
-    assert triangulate([CAMERA, CAMERA], seen[[0, 0]]) is None
+    directions = np.vstack([rays(camera, project(camera, place[None])) for camera in (CAMERA, OTHER)])
+    assert nearest_to_rays(np.array([CAMERA.place, OTHER.place]), directions) == pytest.approx(place, abs=1e-9)
+    assert nearest_to_rays(np.array([CAMERA.place, CAMERA.place]), directions[[0, 0]]) is None
     assert nearest_to_rays(np.array([[0.0, 0, 0], [1.0, 0, 0]]), np.array([[0.0, 0.6, -0.8], [0.6, 0.0, -0.8]])) is None
 
 
