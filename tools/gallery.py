@@ -18,6 +18,7 @@ SECTIONS = {
     "Faces": ("hero", "three_views", "people", "strangers", "shading"),
     "Expression": ("expressions", "presets", "mouth", "gaze", "caricature"),
     "Motion": ("blink", "jaw", "strip", "filmstrip", "curves"),
+    "Measured faces": ("measured",),
     "Drawn faces": (
         "toons",
         "toon_presets",

@@ -71,7 +71,7 @@ def test_what_is_wrong_with_names_is_told(text, message, tmp_path: Path):
 
 def test_an_unknown_unit_and_a_moment_of_a_table_are_told(tmp_path: Path):
     path = write(tmp_path / "a.csv", "point,x,y,z\nnasion,0,0,0\n")
-    with pytest.raises(UnknownNameError, match="unit 'mn' — did you mean .*'mm'"):
+    with pytest.raises(UnknownNameError, match=r"unit 'mn' — did you mean .*'mm'"):
         read_face(path, unit="mn", sigma_m=0.001)
     with pytest.raises(MienError, match="a table has no moments"):
         read_face(path, sigma_m=0.001, moment="smile")
