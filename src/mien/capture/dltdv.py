@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mien.core import LoadError, MienError, UnknownNameError
+from mien.core import LoadError, MienError
 from mien.core.mesh import Points
 from mien.formats.cue_text import read_text
 
@@ -198,10 +198,17 @@ def _called(path: Path, points: Sequence[str], names: Sequence[str]) -> Mapping[
     if not beside.is_file():
         return {point: point for point in points}
     rows = list(split_table(beside, read_text(beside)))
-    table = {cells[0]: cells[1] for _, cells in rows[1:] if len(cells) == 2 and cells[1]}
-    for point in points:
-        if point not in table:
-            raise LoadError(beside, str(UnknownNameError("point", point, table)))
+    table = {
+        f"pt{cells[0]}" if cells[0].isdecimal() else cells[0]: cells[1]
+        for _, cells in rows[1:]
+        if len(cells) == 2 and cells[1]
+    }
+    missing = [point for point in points if point not in table]
+    if missing:
+        raise LoadError(
+            beside, f"does not name {missing[0]!r} of {path.name}",
+            hint=f"want columns point, name and a line such as {missing[0]},nose",
+        )  # fmt: skip
     return {point: table[point] for point in points}
 
 

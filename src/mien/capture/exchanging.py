@@ -89,8 +89,10 @@ def export(folder: Path, out: Path, *, origin: str = ORIGINS[0]) -> list[str]:
         )
     project = read_project(folder)
     survey = survey_of(project)
+    names = point_names(survey.observations)
     if wanted == CLICKS:
-        names = point_names(survey.observations)
+        if not names:
+            raise MienError(f"{project.folder / POINTS}: there are no clicks to export")
         _write(out, format_clicks(survey.observations, project.photographs, origin=origin))
         told = [f"{out}: clicks {len(survey.observations)}, points {len(names)}"]
     else:
@@ -101,7 +103,8 @@ def export(folder: Path, out: Path, *, origin: str = ORIGINS[0]) -> list[str]:
             bent = any(lens_array(camera.lens)[3:7].any() for camera in solution.cameras.values())
             note = "; their lenses are taken for straight: the coefficients have no terms of distortion"
             return [f"{out}: the cameras of the first moment, for lengths in {project.unit}{note * bent}"]
-        names = list(dict.fromkeys(name for _, name in solution.points))
+        # Points have the numbers that they have among the clicks: one file names both.
+        names = list(dict.fromkeys([*names, *(name for _, name in solution.points)]))
         _write(out, format_places(solution, names, project.metres))
         told = [f"{out}: {len(names)} points in {project.unit}"]
     _write(names_file(out), format_names(names))

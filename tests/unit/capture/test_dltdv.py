@@ -199,3 +199,41 @@ def test_the_name_of_a_file_tells_what_to_export(tmp_path: Path) -> None:
     assert (tmp_path / "anna-xyzpts.csv").read_text() == "pt1_X,pt1_Y,pt1_Z\n10,20,30\n"
     with pytest.raises(MienError, match=r"want a name that ends in xypts\.csv"):
         export(folder, tmp_path / "anna.csv")
+
+
+def test_points_have_the_numbers_of_their_clicks(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "anna")
+    (folder / "points.csv").write_text(
+        "photo,point,u,v,sigma\nfront.jpg,chin,10,20,\nfront.jpg,nose,200.5,150.25,\nleft.jpg,nose,180,150,\n"
+    )
+    project = read_project(folder)
+    points = [
+        SolvedPoint(name, "smile", np.array([0.01, 0.02, 0.03]), np.eye(3) * 1e-8, ("front.jpg", "left.jpg"))
+        for name in ("ear", "nose")
+    ]
+    write_solution(folder, make_solution(Survey(project.photographs, (), ()), points))
+    export(folder, tmp_path / "anna_xypts.csv")
+    export(folder, tmp_path / "anna_xyzpts.csv")
+    assert (tmp_path / "anna_pointnames.csv").read_text() == "point,name\npt1,chin\npt2,nose\npt3,ear\n"
+    assert (tmp_path / "anna_xyzpts.csv").read_text().splitlines()[1] == "NaN,NaN,NaN,10,20,30,10,20,30"
+    clicks = read_clicks(tmp_path / "anna_xypts.csv", project.photographs)
+    assert {(each.photo, each.point) for each in clicks} == {
+        ("front.jpg", "chin"), ("front.jpg", "nose"), ("left.jpg", "nose"),
+    }  # fmt: skip
+
+
+def test_points_may_be_named_by_number_and_none_is_left_out(tmp_path: Path) -> None:
+    file = written(tmp_path, "pt1_cam1_X,pt1_cam1_Y,pt2_cam1_X,pt2_cam1_Y\n11,21,31,41\n")
+    names = written(tmp_path, "point,name\n1,nose\n2,chin\n", "trial_pointnames.csv")
+    assert [each.point for each in read_clicks(file, PHOTOS)] == ["nose", "chin"]
+    names.write_text("point,name\n1,nose\n")
+    with pytest.raises(LoadError, match=r"trial_pointnames\.csv: does not name 'pt2' of trial_xypts\.csv — want"):
+        read_clicks(file, PHOTOS)
+
+
+def test_no_clicks_are_not_exported(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "anna")
+    (folder / "points.csv").write_text("photo,point,u,v,sigma\n")
+    with pytest.raises(MienError, match="there are no clicks to export"):
+        export(folder, tmp_path / "anna_xypts.csv")
+    assert not (tmp_path / "anna_xypts.csv").exists()
