@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mien.capture.covariances import Covariances, covariances, seen_covariances
-from mien.capture.networks import Network
+from mien.capture.networks import Bools, Network
 from mien.capture.refining import Refined
 from mien.core.mesh import Ints, Points
 
@@ -35,12 +35,14 @@ class Judgement:
     Attributes:
         statistics: (A,) χ² of 2 degrees of freedom of leaving each out, for the standard deviations told.
         scale: square of how many times larger the clicks scatter than told; 1 where they agree.
+        shares: (A,) how many numbers, 0 to 2, of each the others check.
         redundancy: how many numbers more than needed were told.
         covariances: of all.
     """
 
     statistics: Points
     scale: float
+    shares: Points
     redundancy: float
     covariances: Covariances
 
@@ -55,10 +57,17 @@ def judge(refined: Refined) -> Judgement:
     squares = np.where(counted, along**2 / np.where(counted, values, 1.0), 0.0)
     degrees = counted.sum(axis=1)
     statistics = np.where(degrees == 1, _as_two(squares.sum(axis=1)), squares.sum(axis=1))
+    shares = np.where(degrees > 0, np.trace(checked, axis1=1, axis2=2), 0.0)
     redundancy = float(np.trace(checked, axis1=1, axis2=2).sum())
     least = (LEAST_PX / float(np.median(refined.problem.network.sigmas))) ** 2
     scale = max(_scale(statistics[degrees > 0], redundancy), least)
-    return Judgement(statistics, scale, redundancy, found)
+    return Judgement(statistics, scale, shares, redundancy, found)
+
+
+def scatter(judgement: Judgement, some: Bools) -> float:
+    """Square of how many times larger some (A,) of the clicks scatter than told; 1 where that may be chance."""
+    some = some & (judgement.shares > 0.0)
+    return _scale(judgement.statistics[some], float(judgement.shares[some].sum()))
 
 
 def _as_two(statistics: Points) -> Points:

@@ -29,6 +29,7 @@ from mien.capture.screening import astray, put_back, without
 from mien.capture.snooping import CONTRADICTED, LEAST_SCALE, Judgement, judge, worst
 from mien.capture.solving_appendix_c import solve_appendix_c
 from mien.capture.starting import FEWEST_PLACED, begin
+from mien.capture.weighing import both_kinds, remarks_on_scatter, weighed
 from mien.core.errors import MienError, UnknownNameError
 from mien.core.mesh import Points
 
@@ -88,7 +89,11 @@ def _solve_metric(survey: Survey, say: Report) -> Solution:
     problem = Problem(network, _active(network, state, left_out), _terms(network, FIRST_TERMS), held, means, sigmas)
     say("refining cameras and points")
     first = refine(problem, state, rounds=30, close=1e-4)
-    solved = _clean(replace(problem, free_terms=_terms(network, ALL_TERMS)), first.state, left_out, say)
+    problem, state = replace(problem, free_terms=_terms(network, ALL_TERMS)), first.state
+    if both_kinds(network):
+        rough = refine(problem, state, close=ROUGHLY)
+        problem, state = replace(problem, network=weighed(network, rough, judge(rough))), rough.state
+    solved = _clean(problem, state, left_out, say)
     say("choosing what the lenses can be asked for")
     solved = _choose_terms(solved, say)
     return _solution(solved)
@@ -192,7 +197,7 @@ def _solution(solved: _Solved) -> Solution:
     out = [number for number in np.nonzero(solved.left_out)[0].tolist() if number in residuals]
     suspects = sorted((residuals[number] for number in out), key=lambda each: -each.statistic)
     remarks = [*_remarks_on_missing(network, active, solved.left_out)]
-    remarks += remarks_on_lenses(network, refined, judgement)
+    remarks += [*remarks_on_lenses(network, refined, judgement), *remarks_on_scatter(network)]
     if factor != 1.0:
         remarks.append(
             f"clicks scatter {np.sqrt(factor):.2g} times as far as their sigmas say: covariances count with that"
