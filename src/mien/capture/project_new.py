@@ -23,6 +23,14 @@ _PARTS = re.compile(
 )
 """Names as in smile-2, smile (2), smile_left, smileB."""
 
+_VIEW = re.compile(
+    r"(?P<view>(?:left|right|front|side|cent(?:er|re)|top|bottom)(?=[ _.-]*\d)"
+    r"|cam(?:era)?[ _-]?(?:[a-z]|\d+)(?=[ _.-]))"
+    r"[ _.-]*(?P<number>\d+)",
+    re.IGNORECASE,
+)
+"""Names as in left01, cam-b_12: a camera of a rig, and which of its moments."""
+
 _COUNTED = re.compile(r"(img|image|dsc|dscn|dscf|p|pict|photo|pxl|mvi|screenshot)[ _-]*\d.*", re.IGNORECASE)
 """What cameras call all of their pictures."""
 
@@ -63,7 +71,8 @@ def cube_references(edge_m: float) -> list[Reference]:
 def guess_photographs(paths: Sequence[Path]) -> tuple[Photograph, ...]:
     """Photographs with cameras and moments by what their names and their cameras say.
 
-    ``smile-2.jpg`` is the second view of the moment ``smile``; ``IMG_0123.jpg`` tells nothing. Pictures of other sizes,
+    ``smile-2.jpg`` is the second view of the moment ``smile``, ``left02.jpg`` the second moment of the camera ``left``;
+    ``IMG_0123.jpg`` tells nothing. Pictures of other sizes,
     or of another camera or focal length by their Exif, have another lens. Where there are several moments, views are
     cameras.
 
@@ -90,6 +99,9 @@ def _guess(stem: str) -> tuple[str, str]:
         return REST, ""
     if stem.lower() in ("front", "side", "left", "right"):
         return REST, stem.lower()
+    rig = _VIEW.fullmatch(stem)
+    if rig is not None:
+        return f"moment-{rig['number']}", rig["view"].lower()
     parts = _PARTS.fullmatch(stem)
     if parts is None:
         return (stem if re.search(r"[^\W\d_]", stem) else REST), ""

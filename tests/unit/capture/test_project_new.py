@@ -32,6 +32,8 @@ def photos(folder: Path, *names: str, size: tuple[int, int] = (40, 30)) -> list[
         (["IMG_0012.jpg", "IMG_0013.jpg"], [(REST, "a"), (REST, "a")]),
         (["DSC00123.jpg", "P1010001.jpg", "20211103.jpg"], [(REST, "a")] * 3),
         (["smile.jpg", "smile-b.jpg"], [("smile", "a"), ("smile", "a")]),
+        (["left01.jpg", "right01.jpg", "left02.jpg"], [("moment-01", "a"), ("moment-01", "b"), ("moment-02", "a")]),
+        (["cam1_07.jpg", "cam2_07.jpg", "cam12.jpg"], [("moment-07", "a"), ("moment-07", "b"), ("cam", "c")]),
         (["Grace.jpg"], [("Grace", "a")]),
         (["front.jpg", "side.jpg"], [(REST, "a"), (REST, "a")]),
         (["smile.jpg", "open.jpg"], [("smile", "a"), ("open", "a")]),
