@@ -24,10 +24,14 @@ from .records import WORLD, Observation, Residual, Solution, Survey
 UNKNOWNS = 11
 FEWEST = 10
 """References in a photograph: without two of them, five equations more than unknowns are left."""
+FEWEST_EXCHANGED = 8
+"""References in a photograph, the corners of a cube, of which two that are exchanged are found."""
 SUSPECT_PX = 10.0
 """Times their sigma: clicks that fit worse than this are looked into; lens distortion alone stays below."""
 CURED = 6.0
 """Times: so much better the others must fit without a click or two, by the variance of what is left over."""
+ALONE = 3.0
+"""Times: so much better all must fit by one exchange of names than by any other."""
 WORST = 16
 """Clicks of a photograph that are tried: those that fit worst."""
 AGREES = 16.0
@@ -40,7 +44,7 @@ def astray(survey: Survey) -> tuple[Observation, ...]:
     found: list[Observation] = []
     for photo in survey.photographs:
         clicks = [each for each in survey.observations if each.photo == photo.name and each.point in places]
-        if len(clicks) >= FEWEST:
+        if len(clicks) >= FEWEST_EXCHANGED:
             at = np.array([places[each.point] for each in clicks])
             found += [clicks[number] for number in _worst(at, clicks)]
     return tuple(found)
@@ -80,6 +84,8 @@ def _worst(places: Points, clicks: Sequence[Observation]) -> tuple[int, ...]:
         off, scatter = _fit(places, pictures, everything)
         if scatter < SUSPECT_PX * sigma:
             return ()
+        if len(clicks) < FEWEST:
+            return _exchanged(places, pictures, scatter / CURED)
         candidates = np.argsort(-off)[:WORST].tolist()
         best: tuple[int, ...] = ()
         least = scatter / CURED
@@ -95,6 +101,20 @@ def _worst(places: Points, clicks: Sequence[Observation]) -> tuple[int, ...]:
     except MienError:  # references on a plane tell no camera of their own
         return ()
     return best
+
+
+def _exchanged(places: Points, pictures: Points, least: float) -> tuple[int, ...]:
+    """Numbers of the two clicks whose exchange lets all fit within ``least``, px; none if no exchange alone does.
+
+    A cube of which two corners are exchanged can look like another one, mirrored or askew, of which two others are.
+    """
+    tried = []
+    for one, other in combinations(range(len(pictures)), 2):
+        mended = pictures.copy()
+        mended[[one, other]] = pictures[[other, one]]
+        tried.append((_fit(places, mended, np.ones(len(pictures), dtype=bool))[1], (one, other)))
+    (scatter, best), (second, _) = sorted(tried)[:2]
+    return best if scatter < min(least, second / ALONE) else ()
 
 
 def _fit(places: Points, pictures: Points, kept: NDArray[np.bool_]) -> tuple[Points, float]:

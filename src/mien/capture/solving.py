@@ -288,10 +288,12 @@ def _remarks_on_references(
     median = [float(np.median(judgement.statistics[which])) for which in (known, ~known)]
     if median[0] < WORSE * median[1] and doubted < known.sum() / 5.0:
         return []
+    times = np.sqrt(median[0] / median[1])
+    farther = f"references are seen {times:.1f} times as far off as measured points, and " if times > 1.0 else ""
     return [
-        f"references are seen {np.sqrt(median[0] / median[1]):.1f} times as far off as measured points, and {doubted}"
-        " clicks of them are suspects: they are not quite where they are said to be — measure them again, or tell"
-        " their sigma (0.5 mm for beads on strings), for cameras to count with that"
+        f"{farther}{doubted} clicks of references are suspects: they are not quite where they are said to be, or"
+        " have wrong names — look at the names, measure them again, or tell their sigma (0.5 mm for beads on strings),"
+        " for cameras to count with that"
     ]
 
 

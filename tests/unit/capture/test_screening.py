@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -29,10 +30,11 @@ def exchanged(survey: Survey, one: str, other: str) -> Survey:
     )
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_two_exchanged_references_of_two_photographs_are_named(seed: int) -> None:
-    survey = made(seed)
-    one, other = survey.references[0].name, survey.references[5].name
+@pytest.mark.parametrize("count", [8, 12])
+@pytest.mark.parametrize("seed", range(2))
+def test_two_exchanged_references_of_two_photographs_are_named(seed: int, count: int) -> None:
+    survey = made(seed, count=count)
+    one, other = survey.references[0].name, survey.references[5 if count > 8 else 7].name
     wrong = exchanged(survey, one, other)
     assert {each.point for each in astray(wrong)} == {one, other}
     solution = solve(wrong)
@@ -41,6 +43,15 @@ def test_two_exchanged_references_of_two_photographs_are_named(seed: int) -> Non
     assert solution.chi2_per_dof < 2.0
     assert len(solution.residuals) == len(survey.observations)
     assert solution.survey is wrong
+
+
+def test_exchanged_corners_of_a_cube_are_found_unless_they_lie_across_a_face() -> None:
+    survey = made(4, count=8)
+    assert astray(survey) == ()
+    for one, other in combinations([each.name for each in survey.references], 2):
+        across_a_face = sum(a != b for a, b in zip(one, other, strict=True)) == 2
+        found = {each.point for each in astray(exchanged(survey, one, other))}
+        assert found == (set() if across_a_face else {one, other})
 
 
 def test_one_click_far_off_is_found_alone() -> None:
@@ -53,6 +64,7 @@ def test_one_click_far_off_is_found_alone() -> None:
 def test_right_clicks_bent_lenses_and_boards_are_left_alone() -> None:
     for seed in range(20):
         assert astray(made(seed, views=3, count=20)) == ()
+        assert astray(made(seed, count=8)) == ()
         setup = Setup(references=cube(count=20), points=4, views=2, k1=-0.3, sigma_px=0.3)
         assert astray(simulate(setup, seed).survey) == ()
     flat = [replace(each, target="world") for each in board()]
