@@ -151,3 +151,9 @@ def test_decisions_fill_one_page_and_answer_the_four_questions():
         assert len(text.splitlines()) <= 70, path.name
         for heading in ("## Question", "## Choice", "## Measured", "## What would change our mind"):
             assert heading in text, f"{path.name} has no '{heading}'"
+
+
+def test_no_two_files_of_tests_have_one_name():
+    """They are imported by their names alone."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert sorted({name for name in names if names.count(name) > 1}) == []

@@ -308,7 +308,7 @@ def test_polygons_go_by_the_names_of_the_project(tmp_path):
     (tmp_path / "topology.txt").write_text("part skin\n1 2 3 #e0ac96\n", encoding="utf-8")
     assert polygons_of(project) == [("1", "2", "3")]
     (tmp_path / "marks.csv").write_text(
-        "number,name,body,follows,x,y,z\n1,nose,,,,,\n2,chin,,,,,\n3,brow,,,,,\n", encoding="utf-8"
+        "number,name,body,follows,touches,x,y,z\n1,nose,,,,,,\n2,chin,,,,,,\n3,brow,,,,,,\n", encoding="utf-8"
     )
     assert polygons_of(project) == [("nose", "chin", "brow")]
 
