@@ -78,15 +78,15 @@ def test_a_click_is_heard_when_the_flash_is_seen(tmp_path: Path, suffix: str, fp
 
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", PLAYED)
-def test_they_are_still_together_after_half_an_hour(tmp_path: Path, suffix: str) -> None:
+def test_they_are_still_together_after_ten_minutes(tmp_path: Path, suffix: str) -> None:
     path, rate = tmp_path / f"a{suffix}", check_rate(29.97)
-    count = int(1800 * rate)
+    count = int(600 * rate)
     flashes = {count - 40}
     sound = clicks(count, flashes, rate, 24000)
     write_film(flash(count, flashes), path, fps=29.97, size_px=(SIDE, SIDE), sound=sound)
     wanted = float((count - 40) / rate)
-    assert seen_s(path, 1790.0) == pytest.approx([wanted], abs=SEEN_S[suffix])
-    assert heard_s(path, 1790.0) == pytest.approx([wanted], abs=HEARD_S[suffix] + CLICK_SAMPLES / 24000)
+    assert seen_s(path, 590.0) == pytest.approx([wanted], abs=SEEN_S[suffix])
+    assert heard_s(path, 590.0) == pytest.approx([wanted], abs=HEARD_S[suffix] + CLICK_SAMPLES / 24000)
     times = {"video": [], "audio": []}
     with av.open(str(path)) as film:
         for packet in film.demux():
