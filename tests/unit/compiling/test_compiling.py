@@ -183,7 +183,7 @@ def test_installation_and_home_that_cannot_be_written_to(tmp_path: Path) -> None
         HOME=str(tmp_path / "home"),
         TMPDIR=str(tmp_path / "scratch"),
     )
-    assert out.splitlines() == [str(copy / "compiling" / "__init__.py"), MESSAGE], "told once, however many modules are compiled"
+    assert out.splitlines() == [str(copy / "compiling" / "__init__.py"), MESSAGE], "told once, however many modules"
     assert list((tmp_path / "scratch").iterdir()) == [], "the temporary cache must go when the process ends"
 
 
