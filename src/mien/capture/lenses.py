@@ -16,6 +16,8 @@ from mien.core.mesh import Points
 
 PRINCIPAL_SIGMA = 0.05
 """Of the greater side: how far from the middle principal points lie."""
+CROPPED, CROPPED_SIGMA = 2.5, 0.5
+"""Times that: farther off only where a photograph was cropped; and then that much of the greater side."""
 BEND_SIGMA = 0.15
 """Of its radius: how far a corner of the picture is moved by k1, or by k2."""
 DECENTRED_SIGMA = 0.01
@@ -43,6 +45,21 @@ def assumptions(network: Network, lenses: Points) -> tuple[Points, Points]:
     sigmas[:, 5] = sigmas[:, 6] = DECENTRED_SIGMA / (3.0 * corner)
     sigmas[:, 7] = ASPECT_SIGMA
     return means, sigmas
+
+
+def with_cropped(network: Network, lenses: Points, sigmas: Points) -> Points:
+    """(L, 8) standard deviations, those of principal points wide where ``lenses`` have them far from the middle."""
+    greater = network.sizes.max(axis=1)
+    cropped = far_from_middle(network, lenses) > CROPPED * PRINCIPAL_SIGMA
+    sigmas = sigmas.copy()
+    sigmas[cropped, 1:3] = CROPPED_SIGMA * greater[cropped, None]
+    return sigmas
+
+
+def far_from_middle(network: Network, lenses: Points) -> Points:
+    """(L,) how far principal points are from the middle, over the greater side of the photograph."""
+    off = np.linalg.norm(lenses[:, 1:3] - network.sizes / 2.0, axis=1)
+    return np.asarray(off / network.sizes.max(axis=1))
 
 
 def left_of_assumptions(refined: Refined, judgement: Judgement) -> Points:
@@ -94,6 +111,7 @@ def remarks_on_lenses(network: Network, refined: Refined, judgement: Judgement) 
     remarks = []
     assumed = {"principal": "its principal point for the middle", "k1": "its bend (k1) for none", "k2": "k2 for 0"}
     left = left_of_assumptions(refined, judgement)
+    cropped = far_from_middle(network, refined.state.lenses)
     for number in np.unique(network.lens_of[refined.problem.active]):
         terms = refined.problem.free_terms[number]
         held = [text for name, text in assumed.items() if name not in freed_names(terms)]
@@ -103,5 +121,11 @@ def remarks_on_lenses(network: Network, refined: Refined, judgement: Judgement) 
             remarks.append(
                 f"camera {network.lenses[number]!r}: the clicks hardly tell its focal length"
                 " — add references at more depths, or photographs of the board held askew"
+            )
+        if cropped[number] > CROPPED * PRINCIPAL_SIGMA:
+            remarks.append(
+                f"camera {network.lenses[number]!r}: its axis meets the picture {100.0 * cropped[number]:.0f} % of the"
+                " picture's size away from the middle, as where a photograph was cropped — take whole photographs, of"
+                " which the lens is known more surely"
             )
     return remarks

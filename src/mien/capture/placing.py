@@ -248,5 +248,5 @@ def sensible(pose: Pose, size_px: tuple[int, int]) -> bool:
     """Whether a lens could be one: focal length and principal point within reason of the photograph."""
     focal, u, v, k1, *_ = pose.lens
     greater = max(size_px)
-    centred = abs(u - size_px[0] / 2.0) < 0.3 * greater and abs(v - size_px[1] / 2.0) < 0.3 * greater
+    centred = abs(u - size_px[0] / 2.0) < 1.5 * greater and abs(v - size_px[1] / 2.0) < 1.5 * greater
     return bool(0.2 * greater < focal < 40.0 * greater and centred and abs(k1) < 5.0)

@@ -7,9 +7,10 @@ for before, photograph by photograph.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +19,17 @@ from mien.core.errors import MienError
 from mien.core.mesh import Points
 
 from .homogeneous import homogeneous_matrix
+from .placing import focal_lenses, likely_poses, refine_poses
 from .projecting import project
 from .records import WORLD, Observation, Residual, Solution, Survey
 
 UNKNOWNS = 11
 FEWEST = 10
 """References in a photograph: without two of them, five equations more than unknowns are left."""
-FEWEST_EXCHANGED = 8
-"""References in a photograph, the corners of a cube, of which two that are exchanged are found."""
+FEWEST_EXCHANGED = 6
+"""References in a photograph, corners of a cube, of which two that are exchanged are found."""
+METRIC_UNKNOWNS = 8
+"""Of a camera of square pixels with its middle in the middle: its pose, focal length and bend."""
 SUSPECT_PX = 10.0
 """Times their sigma: clicks that fit worse than this are looked into; lens distortion alone stays below."""
 CURED = 6.0
@@ -46,13 +50,24 @@ def astray(survey: Survey) -> tuple[Observation, ...]:
         clicks = [each for each in survey.observations if each.photo == photo.name and each.point in places]
         if len(clicks) >= FEWEST_EXCHANGED:
             at = np.array([places[each.point] for each in clicks])
-            found += [clicks[number] for number in _worst(at, clicks)]
+            worst = _worst(at, clicks) if len(clicks) >= FEWEST else _exchanged(at, clicks, photo.size_px)
+            found += [clicks[number] for number in worst]
     return tuple(found)
 
 
 def without(survey: Survey, clicks: Sequence[Observation]) -> Survey:
-    """The survey without some of its clicks."""
-    return replace(survey, observations=tuple(each for each in survey.observations if each not in clicks))
+    """The survey without those clicks; where a photograph cannot spare two, they have each other's name instead."""
+    references = {each.name for each in survey.references}
+    shown = Counter(each.photo for each in survey.observations if each.point in references)
+    partner = {
+        (one.photo, one.point): other.point
+        for one, other in permutations(clicks, 2)
+        if one.photo == other.photo and shown[one.photo] < FEWEST
+    }
+    left_out = {(each.photo, each.point) for each in clicks} - partner.keys()
+    kept = [each for each in survey.observations if (each.photo, each.point) not in left_out]
+    named = [replace(each, point=partner.get((each.photo, each.point), each.point)) for each in kept]
+    return replace(survey, observations=tuple(named))
 
 
 def put_back(solution: Solution, survey: Survey, clicks: Sequence[Observation]) -> Solution:
@@ -84,8 +99,6 @@ def _worst(places: Points, clicks: Sequence[Observation]) -> tuple[int, ...]:
         off, scatter = _fit(places, pictures, everything)
         if scatter < SUSPECT_PX * sigma:
             return ()
-        if len(clicks) < FEWEST:
-            return _exchanged(places, pictures, scatter / CURED)
         candidates = np.argsort(-off)[:WORST].tolist()
         best: tuple[int, ...] = ()
         least = scatter / CURED
@@ -103,18 +116,38 @@ def _worst(places: Points, clicks: Sequence[Observation]) -> tuple[int, ...]:
     return best
 
 
-def _exchanged(places: Points, pictures: Points, least: float) -> tuple[int, ...]:
-    """Numbers of the two clicks whose exchange lets all fit within ``least``, px; none if no exchange alone does.
+def _exchanged(places: Points, clicks: Sequence[Observation], size_px: tuple[int, int]) -> tuple[int, ...]:
+    """Numbers of the two clicks whose exchange alone lets all fit a camera; none if all do, or no exchange does.
 
-    A cube of which two corners are exchanged can look like another one, mirrored or askew, of which two others are.
+    Few references fit some homogeneous matrix whatever they are called; so a camera with a lens is asked for.
     """
+    pictures = np.array([[each.u, each.v] for each in clicks])
+    scatter = _metric_scatter(places, pictures, size_px)
+    if scatter < SUSPECT_PX * float(np.median([each.sigma_px for each in clicks])):
+        return ()
     tried = []
     for one, other in combinations(range(len(pictures)), 2):
         mended = pictures.copy()
         mended[[one, other]] = pictures[[other, one]]
-        tried.append((_fit(places, mended, np.ones(len(pictures), dtype=bool))[1], (one, other)))
-    (scatter, best), (second, _) = sorted(tried)[:2]
-    return best if scatter < min(least, second / ALONE) else ()
+        tried.append((_metric_scatter(places, mended, size_px), (one, other)))
+    (least, best), (second, _) = sorted(tried)[:2]
+    return best if least < min(scatter / CURED, second / ALONE) else ()
+
+
+def _metric_scatter(places: Points, pictures: Points, size_px: tuple[int, int]) -> float:
+    """How far clicks (N, 2) are off the likeliest camera of all of them, px; infinite where none is."""
+    greater = max(size_px)
+    found = [
+        pose
+        for poses in likely_poses(focal_lenses(size_px), places, pictures, greater, keep=2, rounds=8)
+        for pose in poses
+    ]
+    if not found:
+        return np.inf
+    likely = sorted(found, key=lambda pose: pose.cost)[:2]
+    best = min(refine_poses(likely, places, pictures, greater, free=(0, 3)), key=lambda pose: pose.cost)
+    off = project(best.camera(), places) - pictures
+    return float(np.sqrt(np.nan_to_num(off * off, nan=np.inf).sum() / (2 * len(places) - METRIC_UNKNOWNS)))
 
 
 def _fit(places: Points, pictures: Points, kept: NDArray[np.bool_]) -> tuple[Points, float]:

@@ -19,6 +19,7 @@ from mien.capture.lenses import (
     evident_terms,
     freed_names,
     remarks_on_lenses,
+    with_cropped,
 )
 from mien.capture.networks import Bools, Network, State, connect
 from mien.capture.placing import FAR
@@ -56,12 +57,14 @@ def solve(survey: Survey, *, method: str = "metric", report: Report | None = Non
     """
     if method not in METHODS:
         raise UnknownNameError("method", method, METHODS)
-    weak = check(survey)
+    connect(survey)
+    wrong = astray(survey) if method == "metric" else ()
+    screened = without(survey, wrong)
+    weak = check(screened)
     if method == "appendix-c":
         solution = solve_appendix_c(survey)
     else:
-        wrong = astray(survey)
-        solution = put_back(_solve_metric(without(survey, wrong), report or _say_nothing), survey, wrong)
+        solution = put_back(_solve_metric(screened, report or _say_nothing), survey, wrong)
     return replace(solution, remarks=(*weak, *solution.remarks, *remarks_on(solution)))
 
 
@@ -83,6 +86,7 @@ def _solve_metric(survey: Survey, say: Report) -> Solution:
     say("placing photographs")
     state, roots = begin(network)
     means, sigmas = assumptions(network, state.lenses)
+    sigmas = with_cropped(network, state.lenses, sigmas)
     held = np.zeros(len(network.bodies), dtype=bool)
     held[roots] = True
     left_out = np.zeros(len(network.pictures), dtype=bool)
@@ -94,6 +98,9 @@ def _solve_metric(survey: Survey, say: Report) -> Solution:
         rough = refine(problem, state, close=ROUGHLY)
         problem, state = replace(problem, network=weighed(network, rough, judge(rough))), rough.state
     solved = _clean(problem, state, left_out, say)
+    sigmas = with_cropped(network, solved.refined.state.lenses, problem.lens_sigmas)
+    if (sigmas != problem.lens_sigmas).any():
+        solved = _clean(replace(problem, lens_sigmas=sigmas), solved.refined.state, left_out, say)
     say("choosing what the lenses can be asked for")
     solved = _choose_terms(solved, say)
     return _solution(solved)

@@ -27,6 +27,10 @@ HOPELESS = 0.6
 """Cost of a pose that more than half of the clicks contradict."""
 ENOUGH = 20
 """Points of a photograph that judge a guess, about."""
+ENOUGH_FOR_CROPPED = 8
+"""Points of a photograph that tell where its middle was before it was cropped."""
+CROPPED = 0.05
+"""Part of the cost that is left where a principal point far from the middle tells a photograph as nothing else does."""
 JUDGES = 6
 """Photographs by which the lens of a camera is guessed, at most."""
 
@@ -156,9 +160,15 @@ def _direct(sight: Sight, size_px: tuple[int, int]) -> Pose | None:
     if camera is None:
         return None
     lens = lens_array(camera.lens)
-    lens[1:3] = np.array(size_px) / 2.0
-    pose = Pose(lens, camera.rotation, camera.place, 1.0)
-    return refine_poses([pose], sight.places, sight.pictures, max(size_px), free=(0, 3), rounds=30)[0]
+    centred = lens.copy()
+    centred[1:3] = np.array(size_px) / 2.0
+    pose = Pose(centred, camera.rotation, camera.place, 1.0)
+    pose = refine_poses([pose], sight.places, sight.pictures, max(size_px), free=(0, 3), rounds=30)[0]
+    if pose.cost < GOOD or len(sight.places) < ENOUGH_FOR_CROPPED:
+        return pose
+    free = Pose(lens, camera.rotation, camera.place, 1.0)
+    cropped = refine_poses([free], sight.places, sight.pictures, max(size_px), free=(0, 1, 2), rounds=30)[0]
+    return cropped if cropped.cost < CROPPED * pose.cost else pose
 
 
 def _best_pose(network: Network, state: State, sight: Sight) -> Pose | None:

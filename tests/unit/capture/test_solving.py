@@ -50,6 +50,18 @@ def test_mis_clicks_are_named_and_take_no_part() -> None:
     assert rms(solution, simulated) < 0.001
 
 
+@pytest.mark.parametrize("off_centre", [0.3, 0.9])
+def test_cropped_photographs_are_solved_and_told(off_centre: float) -> None:
+    simulated = simulate(replace(MODERN, references=cube(), k1=0.0, views=3, off_centre=off_centre), 1)
+    solution = solve(simulated.survey)
+    off = {key: each.place - simulated.places[key] for key, each in solution.points.items() if each.kind == "measured"}
+    covered = [v @ np.linalg.solve(solution.points[key].covariance, v) < 7.815 for key, v in off.items()]
+    assert len(off) == 30
+    assert np.mean(covered) > 0.8
+    assert not solution.suspects
+    assert sum("cropped" in remark for remark in solution.remarks) >= 1
+
+
 def test_unknown_method() -> None:
     with pytest.raises(UnknownNameError, match="metric"):
         solve(simulate(MODERN, 0).survey, method="metrik")
