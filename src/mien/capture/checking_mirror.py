@@ -93,7 +93,8 @@ def check_handedness(survey: Survey) -> None:
     raise MienError(
         f"references are named mirror-wise: {names} {'shows' if len(wrong) == 1 else 'show'} their mirror image, which "
         f"fits {_better(wrong)} times better — left and right are exchanged along {axis}: change the sign of all "
-        f"{axis} in references.csv, or of another axis instead{exchange}"
+        f"{axis} in references.csv, or of another axis instead{exchange}; but if v was counted from the lower edge of "
+        "the picture, or u and v are exchanged, mend points.csv and leave the references"
     )
 
 

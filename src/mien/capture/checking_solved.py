@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 
@@ -13,7 +13,7 @@ from mien.core.mesh import Points
 
 from .checking import listed
 from .projecting import project, rays
-from .records import Camera, Observation, Residual, Solution, SolvedPoint
+from .records import WORLD, Camera, Observation, Residual, Solution, SolvedPoint
 from .summaries import measured
 
 NARROW_DEG = 8.0
@@ -37,7 +37,12 @@ Key = tuple[str, str]
 
 def remarks_on(solution: Solution) -> tuple[str, ...]:
     """What to look at and what to add, a sentence each."""
-    return (*_remarks_on_angles(solution), *_remarks_on_names(solution), *_remarks_on_size(solution))
+    return (
+        *_remarks_on_angles(solution),
+        *_remarks_on_names(solution),
+        *_remarks_on_places(solution),
+        *_remarks_on_size(solution),
+    )
 
 
 def _remarks_on_angles(solution: Solution) -> Iterator[str]:
@@ -126,6 +131,27 @@ def _scatter(solution: Solution) -> float:
     return max(math.sqrt(solution.chi2_per_dof), 1.0) if math.isfinite(solution.chi2_per_dof) else 1.0
 
 
+def _remarks_on_places(solution: Solution) -> Iterator[str]:
+    """References that no photograph sees where they are said to be, while their clicks agree on another place."""
+    wrong: dict[str, list[Observation]] = defaultdict(list)
+    for each in solution.suspects:
+        wrong[each.observation.point].append(each.observation)
+    clicks = Counter(each.observation.point for each in solution.residuals)
+    for reference in solution.survey.references:
+        seen = wrong[reference.name]
+        if reference.target != WORLD or not 2 <= clicks[reference.name] == len(seen):
+            continue
+        place = _meeting(seen, solution)
+        if place is None:
+            continue
+        off = 1000.0 * (place - (reference.x, reference.y, reference.z))
+        yield (
+            f"reference {reference.name!r}: all of its {len(seen)} clicks are suspects, and they agree on a place "
+            f"{math.hypot(*off):.1f} mm from the one told ({off[0]:+.1f}, {off[1]:+.1f}, {off[2]:+.1f} mm along x, y "
+            "and z) — measure it again"
+        )
+
+
 def _remarks_on_pairs(
     solution: Solution, suspects: Sequence[Residual], seen: Mapping[Key, Observation], meant: Mapping[Key, str | None]
 ) -> Iterator[str]:
@@ -147,20 +173,24 @@ def _remarks_on_pairs(
             first, second = shared
             told = [(seen[first, name], seen[second, name]) for name in (one, other)]
             crossed = [(seen[first, one], seen[second, other]), (seen[first, other], seen[second, one])]
-            if all(_meet(pair, solution) for pair in crossed) and not any(_meet(pair, solution) for pair in told):
+            if all(_meets(pair, solution) for pair in crossed) and not any(_meets(pair, solution) for pair in told):
                 yield _exchange(shared, one, other, [seen[name, point] for name in shared for point in (one, other)])
 
 
-def _meet(pair: tuple[Observation, Observation], solution: Solution) -> bool:
-    """Whether the rays of two clicks meet before both cameras."""
-    cameras = [solution.cameras[each.photo] for each in pair]
-    directions = [rays(c, np.array([[each.u, each.v]]))[0] for c, each in zip(cameras, pair, strict=True)]
+def _meeting(clicks: Sequence[Observation], solution: Solution) -> Points | None:
+    """(3,) m where the rays of clicks meet before their cameras; None where they do not."""
+    cameras = [solution.cameras[each.photo] for each in clicks]
+    directions = [rays(c, np.array([[each.u, each.v]]))[0] for c, each in zip(cameras, clicks, strict=True)]
     place = _nearest([camera.place for camera in cameras], directions)
-    for camera, each in zip(cameras, pair, strict=True):
+    for camera, each in zip(cameras, clicks, strict=True):
         u, v = project(camera, place[None])[0]
         if not math.hypot(u - each.u, v - each.v) < NEAR_SIGMAS / 2.0 * _scatter(solution) * each.sigma_px:
-            return False
-    return True
+            return None
+    return place
+
+
+def _meets(clicks: Sequence[Observation], solution: Solution) -> bool:
+    return _meeting(clicks, solution) is not None
 
 
 def _nearest(places: Sequence[Points], directions: Sequence[Points]) -> Points:

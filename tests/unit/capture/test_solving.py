@@ -50,6 +50,18 @@ def test_mis_clicks_are_named_and_take_no_part() -> None:
     assert rms(solution, simulated) < 0.001
 
 
+@pytest.mark.parametrize("views", [2, 4])
+def test_a_reference_that_was_surveyed_wrongly_is_named_with_what_is_off(views: int) -> None:
+    survey = simulate(replace(MODERN, views=views), 6).survey
+    wrong = survey.references[3]
+    references = tuple(replace(each, x=each.x + 0.005) if each is wrong else each for each in survey.references)
+    remarks = [each for each in solve(replace(survey, references=references)).remarks if "measure it again" in each]
+    assert len(remarks) == 1
+    assert remarks[0].startswith(f"reference {wrong.name!r}")
+    x, y, z = (float(text) for text in remarks[0].split("(")[1].split(" mm")[0].split(","))
+    assert (x, y, z) == pytest.approx((-5.0, 0.0, 0.0), abs=0.6)
+
+
 @pytest.mark.parametrize("off_centre", [0.3, 0.9])
 def test_cropped_photographs_are_solved_and_told(off_centre: float) -> None:
     simulated = simulate(replace(MODERN, references=cube(), k1=0.0, views=3, off_centre=off_centre), 1)
