@@ -26,6 +26,7 @@ WORDS = {
     "lash": Material(two_sided=True),
     "brow": Material(gloss=0.015),
     "teeth": Material(gloss=0.2, two_sided=True),
+    "tongue": Material(gloss=0.06, subdivide=True),
     "collar": Material(gloss=0.01, two_sided=True, subdivide=True),
     "hair": Material(gloss=0.06, subdivide=True),
 }
@@ -34,7 +35,7 @@ WORDS = {
 
 TOUCHES = {f"e0_{upper}": (("blink", f"e0_{12 - upper}"),) for upper in range(1, 6)}
 """Margins of the upper lid lie on those of the lower one while the eye is shut."""
-BLEND = ("skin", "collar", "hair")
+BLEND = ("skin", "tongue", "collar", "hair")
 """Parts whose colours flow into one another."""
 
 

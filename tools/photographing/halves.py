@@ -21,17 +21,22 @@ SPOT = 0.085
 TOOTH_RINGS, TOOTH_CORNERS = (0, 1, 3), (7, 0, 2, 3)
 FRONT_TEETH = tuple(range(4, 16, 2))
 """Of the left upper crowns, the first molar to the central incisor; the lower ones are 16 further on."""
-MOUTH_BAG = {"mj": (0.9, 0.014), "mk": (0.7, 0.036)}
-"""Rings of the inside of the mouth: how wide they are over the rim of the lips, and how far behind it, m."""
-LONGER_M = 0.002
-"""How much lower the upper teeth stand than in the shipped head: lips that open show them."""
+LOWER_M = {"upper": 0.002, "lower": -0.003}
+"""How much lower the teeth of a jaw stand than in the shipped head: lips that open show both rows."""
+TONGUE_LOWER_M = 0.002
+"""And how much lower the tongue lies, which goes along with all of the jaw's turn."""
 BROW_STATIONS, BROW_ROWS = (0, 2, 4, 6, 8, 10, 12, 14), (0, 1, 2, 3)
 BROW_LIFT_M = 0.0018
 CHIN_SHARE = 0.65
 """Points below the mouth with so much of the jaw's angle go along with the lower teeth."""
 COLLAR_ROWS = (0, 2, 4, 6, 9, 12)
-UPPER, LOWER = (0, 1, 2, 3, 4, 5, 6), (6, 7, 8, 9, 10, 11, 0)
-"""Stations of the lids from the inner corner to the outer one, and back."""
+LID = (0, 1, 2, 3, 4, 5, 6)
+"""Stations of the upper lid from the inner corner to the outer one."""
+LASH_M, LASH_RISE = 0.0038, 0.55
+LASH_SHARES = (0.35, 0.55, 0.75, 0.85, 0.8, 0.4)
+"""Lashes: how long the longest are, how far they rise, and how long they are from station to station."""
+TONGUE_RINGS, TONGUE_CORNERS = (0, 1, 2, 4, 6, 8, 10, 13), (4, 2, 0, 14, 12)
+"""Of the tongue's rings from the tip to the root, and on its left half from above to below."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +124,7 @@ def draft(cap: Cap) -> Half:
     _lashes(half)
     _brow(half)
     _teeth(half)
+    _tongue(half)
     _collar(half)
     _hair(half, cap)
     return half
@@ -144,23 +150,7 @@ def _skin(half: Half) -> None:
             label = "blush" if blush > 0.5 else "skin"
         polygons.append((corners, label))
     half.midline += [name for number, name in enumerate(names) if head.mirror[number] == number]
-    bag = [
-        (
-            deep,
-            np.array([head.vertex[f"{ring}_{k}"] for k in range(10)]),
-            np.array([head.vertex[f"m0_{k}"] for k in range(10)]),
-        )
-        for ring, deep in MOUTH_BAG.items()
-    ]
-
-    def place(state: State) -> np.ndarray:
-        skin = state.skin[:count].copy()
-        for (narrow, back), rows, rim in bag:
-            middle = skin[rim].mean(axis=0) * [0.0, 1.0, 1.0]
-            skin[rows] = middle + narrow * (skin[rim] - middle) - [0.0, 0.0, back]
-        return skin
-
-    half.add(Piece(tuple(names), place), "skin", polygons)
+    half.add(Piece(tuple(names), lambda state: state.skin[:count]), "skin", polygons)
 
 
 # ---------------------------------------------------------------- eyes
@@ -221,30 +211,23 @@ def _eye(half: Half) -> None:
 
 
 def _lashes(half: Half) -> None:
-    """Strips along the margins: of the upper lid long, of the lower one a line."""
-    for lid, stations, length, up in (("upper", UPPER, 0.0048, 0.55), ("lower", LOWER, 0.0016, -0.5)):
-        names = tuple(f"lash_{lid}_{station}" for station in stations[1:])
+    """A strip along the margin of the upper lid; those of the lower one are too short for polygons."""
+    names = tuple(f"lash_{station}" for station in LID[1:])
 
-        def place(
-            state: State, stations: tuple[int, ...] = stations, long: float = length, up: float = up
-        ) -> np.ndarray:
-            at, out = archive().vertex, []
-            for number, station in enumerate(stations[1:], start=1):
-                base = state.skin[at[f"e0_{station}"]]
-                way = (base - state.eye) / np.linalg.norm(base - state.eye)
-                rise = up + 3.0 * min(way[1], 0.0) if up > 0 else up
-                way = way + np.array([0.12 * (number - 2.5), rise, 0.0])
-                share = (0.35, 0.6, 0.85, 1.0, 1.0, 0.9)[number - 1] if up > 0 else 1.0
-                out.append(base + long * share * way / np.linalg.norm(way))
-            return np.array(out)
+    def place(state: State) -> np.ndarray:
+        at, out = archive().vertex, []
+        for number, (station, share) in enumerate(zip(LID[1:], LASH_SHARES, strict=True), start=1):
+            base = state.skin[at[f"e0_{station}"]]
+            way = (base - state.eye) / np.linalg.norm(base - state.eye)
+            way = way + np.array([0.12 * (number - 2.5), LASH_RISE + 3.0 * min(way[1], 0.0), 0.0])
+            out.append(base + LASH_M * share * way / np.linalg.norm(way))
+        return np.array(out)
 
-        polygons = []
-        for k in range(len(stations) - 1):
-            a, b = f"e0_{stations[k]}", f"e0_{stations[k + 1]}"
-            corners = (a, b, names[k]) if k == 0 else (a, b, names[k], names[k - 1])
-            polygons.append((corners if up > 0 else corners[::-1], "lash"))
-        follows = tuple(f"e0_{station}" for station in stations)
-        half.add(Piece(names, place, follows=follows), "lash", polygons)
+    polygons = []
+    for k in range(len(LID) - 1):
+        a, b = f"e0_{LID[k]}", f"e0_{LID[k + 1]}"
+        polygons.append(((a, b, names[k]) if k == 0 else (a, b, names[k], names[k - 1]), "lash"))
+    half.add(Piece(names, place, follows=tuple(f"e0_{station}" for station in LID)), "lash", polygons)
 
 
 def _brow(half: Half) -> None:
@@ -294,7 +277,7 @@ def _teeth(half: Half) -> None:
     for jaw, first in (("upper", 0), ("lower", 16)):
         chosen = np.array([[ring * 8 + corner for corner in TOOTH_CORNERS] for ring in TOOTH_RINGS])
         points = crowns[[first + tooth for tooth in FRONT_TEETH]][:, chosen].reshape(-1, 3)
-        points = points - [0.0, LONGER_M if jaw == "upper" else 0.0, 0.0]
+        points = points - [0.0, LOWER_M[jaw], 0.0]
         rest = _carried(points)
 
         def place(state: State, rest: Callable[[State], np.ndarray] = rest, moves: bool = jaw == "lower") -> np.ndarray:
@@ -318,6 +301,21 @@ def _teeth(half: Half) -> None:
                     polygons.append((tuple(names[k] for k in corners[::way]), "tooth"))
         follows = _chin() if jaw == "lower" else ()
         half.add(Piece(names, place, f"{jaw} teeth", follows), "teeth", polygons)
+
+
+def _tongue(half: Half) -> None:
+    """It lies between the lower teeth and goes along with them."""
+    grid = archive().floats("tongue_points").reshape(14, 16, 3)[list(TONGUE_RINGS)][:, list(TONGUE_CORNERS)]
+    rest = _carried(grid.reshape(-1, 3) - [0.0, TONGUE_LOWER_M, 0.0])
+    rows, columns = grid.shape[:2]
+    names = np.array([[f"tongue_{row}_{column}" for column in range(columns)] for row in range(rows)])
+    polygons = _outwards(_grid_polygons(names, lambda row, _: "tongue"), names, grid)
+    half.midline += [str(name) for row in names for name in (row[0], row[-1])]
+
+    def place(state: State) -> np.ndarray:
+        return rest(state) @ state.jaw[:, :3].T + state.jaw[:, 3]
+
+    half.add(Piece(tuple(names.ravel()), place, "lower teeth", _chin()), "tongue", polygons)
 
 
 def _chin() -> tuple[str, ...]:

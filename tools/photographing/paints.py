@@ -19,6 +19,7 @@ MATERIALS = {
     "lash": Material(two_sided=True),
     "brow": Material(gloss=0.015),
     "teeth": Material(gloss=0.2, gloss_power=36, two_sided=True),
+    "tongue": Material(gloss=0.06, gloss_power=24, subdivide=True),
     "collar": Material(gloss=0.01, two_sided=True, subdivide=True),
     "hair": Material(gloss=0.07, gloss_power=18, subdivide=True),
 }
@@ -31,17 +32,18 @@ def paints(palette: str) -> dict[str, np.ndarray]:
     skin, blush, lip = own["skin"], own["blush"], own["lip"]
     return own | {
         "brow": 0.85 * own["eyebrow"] + 0.15 * skin,
-        "lash": 0.15 * own["eyebrow"],
+        "lash": 0.3 * own["eyebrow"],
         "blush": 0.5 * (blush + skin),
         "lip": lip,
         "cavity": np.array([0.055, 0.014, 0.014]),
-        "nostril": 0.1 * skin,
+        "nostril": 0.05 * blush,
         "rim": 0.6 * blush + 0.4 * np.array([0.60, 0.21, 0.20]),
         "pupil": np.full(3, 0.005),
         "fringe": 0.25 * own["iris"],
         "white": np.array([0.80, 0.78, 0.76]),
         "spot": np.ones(3),
         "caruncle": 0.5 * blush + 0.5 * np.array([0.57, 0.15, 0.13]),
+        "tongue": np.array([0.36, 0.09, 0.085]),
         "tooth": np.array([0.78, 0.72, 0.60]),
         "band": 0.8 * own["garment"],
     }

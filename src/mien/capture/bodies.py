@@ -31,9 +31,9 @@ def settle_bodies(places: Points, seen: Bools, marks: Marks) -> None:
     """Put each body of all phases (K, N, 3) m into one shape, that of the phase which shows most of it.
 
     Its shape is the model's, scaled and moved onto what is seen. In a phase that shows enough of it, it is moved onto
-    that; in others it goes along with the points that it follows, or stays where it follows none. A body that reaches
-    the plane of symmetry, such as a row of teeth, moves together with its mirror image: it neither turns nor shifts
-    sideways.
+    that; in others it goes along with the points that it follows, and shifts onto the few of its own that are seen, or
+    stays where it follows none. A body that reaches the plane of symmetry, such as a row of teeth, moves together with
+    its mirror image: it neither turns nor shifts sideways.
     """
     if marks.model is None:
         return
@@ -54,7 +54,10 @@ def settle_bodies(places: Points, seen: Bools, marks: Marks) -> None:
                 start, goal = places[best, follows], places[phase, follows]
             else:
                 start = goal = shape
-            places[phase, points] = _motion(_whole(start, whole), _whole(goal, whole)).apply(shape)
+            moved = _motion(_whole(start, whole), _whole(goal, whole)).apply(shape)
+            if len(follows) and there.any():
+                moved += _whole(places[phase, points[there]] - moved[there], whole).mean(axis=0)
+            places[phase, points] = moved
 
 
 def _whole(points: Points, both: bool) -> Points:

@@ -115,17 +115,20 @@ def test_an_eyeball_half_hidden_keeps_its_shape():
     np.testing.assert_allclose(places, truth, atol=1e-9)
 
 
-def test_hidden_teeth_go_along_with_the_chin():
+@pytest.mark.parametrize(("shown", "lower"), [(0, 0.0), (3, 0.002)])
+def test_hidden_teeth_go_along_with_the_chin_and_onto_the_few_that_are_seen(shown, lower):
     chin = np.array([[0.0, -0.1, 0.09], [0.01, -0.1, 0.09], [0.0, -0.09, 0.1], [0.01, -0.11, 0.08]])
     model = np.concatenate([BALL, chin])
     follows = (("13", "14", "15", "16"),) * 12 + ((),) * 4
     marks = Marks(plain_marks(16).names, ("teeth",) * 12 + ("",) * 4, follows, model)
     drop = Motion(TURN, np.array([0.0, -0.02, 0.0]))
     places = np.stack([drop.apply(model), model])
+    places[1, :12, 1] -= lower
+    truth = places[1].copy()
     seen = np.ones((2, 16), dtype=bool)
-    places[1, :12], seen[1, :12] = 0.0, False
+    places[1, shown:12], seen[1, shown:12] = 0.0, False
     settle_bodies(places, seen, marks)
-    np.testing.assert_allclose(places[1], model, atol=1e-9)
+    np.testing.assert_allclose(places[1], truth, atol=1e-9)
 
 
 def test_a_row_of_teeth_does_not_slip_sideways():

@@ -68,6 +68,14 @@ def test_teeth_show_in_an_open_mouth_and_not_at_rest(name):
 
 
 @pytest.mark.parametrize("name", PEOPLE)
+def test_an_open_mouth_is_no_empty_hole(name):
+    rest, wide = posed(name), posed(name, open=1.0)
+    assert seen_of(rest, "tongue") == 0
+    assert seen_of(wide, "tongue") > 15
+    assert seen_of(wide, "teeth") > 4
+
+
+@pytest.mark.parametrize("name", PEOPLE)
 def test_heads_do_not_swim(name):
     face = shipped_keypose(name).keypose
     high = face.places[0][:, 1] > 0.07
