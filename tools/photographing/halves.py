@@ -19,10 +19,13 @@ EYE_RINGS = (0.20, 0.36, 0.475, 0.525, 0.72, 0.95)
 EYE_LABELS = ("iris", "iris", "fringe", "white", "white")
 SPOT = 0.085
 TOOTH_RINGS, TOOTH_CORNERS = (0, 1, 3), (7, 0, 2, 3)
-FRONT_TEETH = tuple(range(4, 16, 2))
-"""Of the left upper crowns, the first molar to the central incisor; the lower ones are 16 further on."""
-LOWER_M = {"upper": 0.002, "lower": -0.003}
+FRONT_TEETH = {"upper": tuple(range(4, 16, 2)), "lower": tuple(range(24, 32, 2))}
+"""Of the left crowns, the upper first molar or the lower first premolar to the central incisor."""
+LOWER_M = {"upper": 0.002, "lower": -0.0015}
 """How much lower the teeth of a jaw stand than in the shipped head: lips that open show both rows."""
+LINING = {"mj": (0.8, 0.004), "mk": (0.8, 0.0)}
+"""Rings of the inside of the mouth: how wide they are, and how much further back than in the shipped head, m. What no
+photograph shows is guessed roughly, and a lining as wide as the shipped head's came through the chin."""
 TONGUE_LOWER_M = 0.002
 """And how much lower the tongue lies, which goes along with all of the jaw's turn."""
 BROW_STATIONS, BROW_ROWS = (0, 2, 4, 6, 8, 10, 12, 14), (0, 1, 2, 3)
@@ -150,7 +153,17 @@ def _skin(half: Half) -> None:
             label = "blush" if blush > 0.5 else "skin"
         polygons.append((corners, label))
     half.midline += [name for number, name in enumerate(names) if head.mirror[number] == number]
-    half.add(Piece(tuple(names), lambda state: state.skin[:count]), "skin", polygons)
+    rim = np.array([head.vertex[f"m0_{k}"] for k in range(10)])
+    rings = [(np.array([head.vertex[f"{ring}_{k}"] for k in range(10)]), *moved) for ring, moved in LINING.items()]
+
+    def place(state: State) -> np.ndarray:
+        skin = state.skin[:count].copy()
+        middle = skin[rim].mean(axis=0) * [0.0, 1.0, 0.0]
+        for rows, wide, back in rings:
+            skin[rows] = middle + (skin[rows] - middle) * [wide, wide, 1.0] - [0.0, 0.0, back]
+        return skin
+
+    half.add(Piece(tuple(names), place), "skin", polygons)
 
 
 # ---------------------------------------------------------------- eyes
@@ -274,9 +287,9 @@ def _carried(points: np.ndarray) -> Callable[[State], np.ndarray]:
 
 def _teeth(half: Half) -> None:
     crowns = archive().floats("teeth_points").reshape(32, 33, 3)
-    for jaw, first in (("upper", 0), ("lower", 16)):
+    for jaw, teeth in FRONT_TEETH.items():
         chosen = np.array([[ring * 8 + corner for corner in TOOTH_CORNERS] for ring in TOOTH_RINGS])
-        points = crowns[[first + tooth for tooth in FRONT_TEETH]][:, chosen].reshape(-1, 3)
+        points = crowns[list(teeth)][:, chosen].reshape(-1, 3)
         points = points - [0.0, LOWER_M[jaw], 0.0]
         rest = _carried(points)
 
@@ -287,12 +300,12 @@ def _teeth(half: Half) -> None:
         rows, columns = len(TOOTH_RINGS), len(TOOTH_CORNERS)
         names = tuple(
             f"tooth_{jaw}{tooth}_{row}_{column}"
-            for tooth in range(len(FRONT_TEETH), 0, -1)
+            for tooth in range(len(teeth), 0, -1)
             for row in range(rows)
             for column in range(columns)
         )
         polygons = []
-        for tooth in range(len(FRONT_TEETH)):
+        for tooth in range(len(teeth)):
             for row in range(rows - 1):
                 for column in range(columns - 1):
                     a = (tooth * rows + row) * columns + column

@@ -146,7 +146,7 @@ def _words_of_turn(known: Known, fit: Fit, name: str) -> str:
             f"nothing tells whether {name!r} is exactly in profile: within {math.degrees(known.turn_rad):g}° assumed, "
             "which moves a point 6 cm off the midline by up to "
             f"{60.0 * math.tan(sigma):.0f} mm forwards or back — one lens for both photographs, or measured camera "
-            "distances, tell more"
+            "distances, tell more; where it may be turned further, set side_turn_deg"
         )
     return f"the camera of {name!r} is turned {abs(turn):.1f} ± {math.degrees(sigma):.1f}° from exact profile"
 
