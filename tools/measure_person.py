@@ -1,6 +1,6 @@
 """Solve photographs of ``tools/photograph.py``, make the face, and tell how far its points are from the truth.
 
-    python tools/measure_person.py /tmp/vera src/mien/faces/keypose/data/vera.keypose
+    python tools/measure_person.py ../vera src/mien/faces/keypose/data/vera.keypose
 
 does what ``mien capture solve`` and ``mien capture keypose`` do, and prints a row for each phase: how many points were
 measured and guessed, and how far they lie from where the dots truly were, in mm (RMS), both faces laid onto one another

@@ -1,6 +1,6 @@
 """Photograph a person of the reference folder: dressed, marked with dots, in the cube of strings, by four cameras.
 
-    python tools/photograph.py ../shared/reference ivy /tmp/ivy
+    python tools/photograph.py ../shared/reference ivy ../ivy
 
 writes a capture project: photographs of every phase, where the dots are clicked with an error of the hand, the beads of
 the cube, and the topology that the dots are corners of. ``truth.npz`` beside it tells where they truly are; nothing but

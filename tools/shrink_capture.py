@@ -1,6 +1,6 @@
 """Write a smaller copy of a capture project: some of its moments, photographs reduced, clicks with them.
 
-python tools/shrink_capture.py /tmp/vera examples/capture/vera 750 neutral smile open
+python tools/shrink_capture.py ../vera examples/capture/vera 750 neutral smile open
 """
 
 from __future__ import annotations

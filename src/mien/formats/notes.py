@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import version
+from pathlib import PurePath
 
 SYNTHETIC = "Synthetic: computed from a model of a face; nobody was photographed or recorded."
 
@@ -19,10 +20,10 @@ def notes(face: str, text: str = "", seed: int | None = None) -> Mapping[str, st
     """Keywords and texts for pictures and films.
 
     Args:
-        face: address of the face.
+        face: address of the face; of a path only the file's name is told, so that bytes are the same in any folder.
         text: what it says, if anything.
         seed: of what chance decided in it, if anything.
     """
     title = {"Title": text[:200]} if text else {}
     chance = {} if seed is None else {"Seed": str(seed)}
-    return {**title, "Software": software(), "Face": face, **chance, "Description": SYNTHETIC}
+    return {**title, "Software": software(), "Face": PurePath(face).name, **chance, "Description": SYNTHETIC}
